@@ -1,0 +1,26 @@
+# A room is one library target; it may use only the rooms named in DEPENDS. See docs/architecture.md.
+
+# Flags that every room, program and test is compiled with.
+add_library(grove_flags INTERFACE)
+target_compile_features(grove_flags INTERFACE cxx_std_20)
+# Contraction into fused multiply-adds would make hits differ between instruction sets.
+target_compile_options(grove_flags INTERFACE -ffp-contract=off)
+# Warnings are for our own sources only: never exported.
+add_library(grove_warnings INTERFACE)
+target_compile_options(grove_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wcast-align -Woverloaded-virtual)
+if(GROVE_WARNINGS_AS_ERRORS)
+  target_compile_options(grove_warnings INTERFACE -Werror)
+endif()
+
+# grove_room(NAME SOURCES a.cpp… DEPENDS room… LIBRARIES target… PRIVATE_LIBRARIES target…)
+function(grove_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  add_library(grove_${name} STATIC ${ROOM_SOURCES})
+  add_library(grove::${name} ALIAS grove_${name})
+  list(TRANSFORM ROOM_DEPENDS PREPEND grove_)
+  target_include_directories(grove_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
+  target_link_libraries(grove_${name}
+    PUBLIC grove_flags ${ROOM_DEPENDS} ${ROOM_LIBRARIES}
+    PRIVATE $<BUILD_INTERFACE:grove_warnings> $<BUILD_INTERFACE:${ROOM_PRIVATE_LIBRARIES}>)
+  set_target_properties(grove_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+endfunction()

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace grove {
+
+/// The id where none applies.
+inline constexpr std::uint32_t kInvalidId = 0xffffffffU;
+
+/// Where a ray meets a primitive. 24 bytes, in the order of the hit files.
+///
+/// Triangles: the point is (1 - u - v) v0 + u v1 + v v2. Spheres: u and v are azimuth / 2 pi and polar angle / pi, both in [0, 1].
+/// `primitive` counts within `geometry` (one part of a mesh), `geometry` within the object, `instance` within the top level;
+/// `instance` is kInvalidId where there is no top level.
+struct Hit {
+  float t = std::numeric_limits<float>::infinity();
+  float u = 0.0F;
+  float v = 0.0F;
+  std::uint32_t primitive = kInvalidId;
+  std::uint32_t geometry = kInvalidId;
+  std::uint32_t instance = kInvalidId;
+
+  /// True where something was hit.
+  [[nodiscard]] explicit operator bool() const { return primitive != kInvalidId; }
+
+  friend bool operator==(const Hit&, const Hit&) = default;
+};
+
+static_assert(sizeof(Hit) == 24);
+
+}  // namespace grove

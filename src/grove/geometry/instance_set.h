@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "grove/geometry/hit.h"
+#include "grove/geometry/traceable.h"
+#include "grove/math/transform.h"
+
+namespace grove {
+
+/// Instances: each primitive is something traceable (usually an Accelerator) under a transform. So any structure can be a top level and
+/// any a bottom level. An instance whose transform cannot be inverted can never be hit.
+class InstanceSet {
+ public:
+  struct Instance {
+    std::shared_ptr<const Traceable> object;
+    Transform object_to_world;
+  };
+
+  /// The ray with what the test against world bounds needs, in double.
+  struct PreparedRay {
+    Ray ray;
+    glm::dvec3 inverse_direction;
+  };
+
+  InstanceSet() = default;
+  explicit InstanceSet(std::vector<Instance> instances);
+
+  [[nodiscard]] std::size_t size() const { return instances_.size(); }
+  [[nodiscard]] const Instance& instance(std::size_t i) const { return instances_[i]; }
+
+  /// World bounds, with room for the rounding of rays into object space.
+  [[nodiscard]] Box bounds(std::size_t i) const { return bounds_[i]; }
+  [[nodiscard]] Box clip(std::size_t i, const Box& box) const { return bounds_[i].intersection(box); }
+
+  [[nodiscard]] static PreparedRay prepare(const Ray& ray);
+
+  /// Traces instance i. t is the same in both spaces, because the direction is not normalised.
+  template <typename Counter>
+  bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, Counter& counter) const {
+    return intersect(i, ray, hit, counter.nested());
+  }
+  template <typename Counter>
+  bool occluded(std::size_t i, const PreparedRay& ray, Counter& counter) const {
+    return occluded(i, ray, counter.nested());
+  }
+
+  void locate(Hit& /*hit*/) const {}
+
+ private:
+  bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, TraversalCounts* counts) const;
+  bool occluded(std::size_t i, const PreparedRay& ray, TraversalCounts* counts) const;
+
+  std::vector<Instance> instances_;
+  std::vector<Box> bounds_;
+};
+
+}  // namespace grove

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "grove/geometry/hit.h"
+#include "grove/geometry/ray.h"
+#include "grove/math/box.h"
+
+namespace grove {
+
+/// Analytic spheres, in one or more parts as TriangleMesh has them. A sphere is hollow: a ray that starts inside hits its far side.
+/// Spheres with a radius that is not positive and finite, or a centre that is not finite, can never be hit.
+class SphereSet {
+ public:
+  struct Sphere {
+    Vec3 centre{0.0F};
+    float radius = 1.0F;
+  };
+
+  /// The ray with the doubles that every test needs.
+  struct PreparedRay {
+    Ray ray;
+    double inverse_length_squared = 0.0;
+  };
+
+  SphereSet() = default;
+  explicit SphereSet(std::vector<Sphere> spheres);
+
+  /// Appends a part and returns its number.
+  std::uint32_t add_part(std::vector<Sphere> spheres);
+
+  [[nodiscard]] std::size_t size() const { return spheres_.size(); }
+  [[nodiscard]] std::size_t part_count() const { return part_first_.size(); }
+  [[nodiscard]] const Sphere& sphere(std::size_t i) const { return spheres_[i]; }
+  [[nodiscard]] std::uint32_t first_sphere(std::uint32_t part) const { return part_first_[part]; }
+
+  [[nodiscard]] Box bounds(std::size_t i) const;
+  /// Bounds of the sphere's surface inside `box`, conservative: the box intersection, or empty when the surface misses the box.
+  [[nodiscard]] Box clip(std::size_t i, const Box& box) const;
+
+  [[nodiscard]] static PreparedRay prepare(const Ray& ray);
+  template <typename Counter>
+  bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, Counter& /*counter*/) const {
+    return intersect(i, ray, hit);
+  }
+  template <typename Counter>
+  bool occluded(std::size_t i, const PreparedRay& ray, Counter& /*counter*/) const {
+    return occluded(i, ray);
+  }
+
+  void locate(Hit& hit) const;
+
+ private:
+  bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit) const;
+  [[nodiscard]] bool occluded(std::size_t i, const PreparedRay& ray) const;
+
+  std::vector<Sphere> spheres_;
+  std::vector<std::uint32_t> part_first_;
+};
+
+}  // namespace grove

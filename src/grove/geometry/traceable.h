@@ -1,0 +1,27 @@
+#pragma once
+
+#include "grove/geometry/hit.h"
+#include "grove/geometry/ray.h"
+#include "grove/geometry/traversal_counts.h"
+#include "grove/math/box.h"
+
+namespace grove {
+
+/// The small interface that an instance refers to: something a ray can be traced at. Every Accelerator is one.
+/// All functions may be called by many threads at once.
+class Traceable {
+ public:
+  virtual ~Traceable() = default;
+
+  /// Encloses everything that can be hit; empty when nothing can.
+  [[nodiscard]] virtual Box bounds() const = 0;
+
+  /// The closest hit with t in [ray.t_min, ray.t_max], ties to the lowest (geometry, primitive); a Hit with t = infinity on a miss.
+  /// Adds to `*counts` when it is not null.
+  [[nodiscard]] virtual Hit closest_hit(const Ray& ray, TraversalCounts* counts) const = 0;
+
+  /// True when anything is hit with t in [ray.t_min, ray.t_max]. Adds to `*counts` when it is not null.
+  [[nodiscard]] virtual bool any_hit(const Ray& ray, TraversalCounts* counts) const = 0;
+};
+
+}  // namespace grove

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "grove/geometry/hit.h"
+#include "grove/geometry/watertight_triangle.h"
+#include "grove/math/box.h"
+#include "grove/math/vector.h"
+
+namespace grove {
+
+/// Triangles over shared vertices, made of one or more parts (a part is one mesh of a scene, one material).
+///
+/// During traversal a primitive is known by its number in the whole mesh, which orders by part first; `locate` turns it into
+/// (geometry = part, primitive within the part). Triangles with a coordinate that is not finite, or beyond 1e38, can never be hit
+/// and have empty bounds. Memory: 12 bytes a vertex and 12 a triangle.
+class TriangleMesh {
+ public:
+  using PreparedRay = WatertightRay;
+
+  TriangleMesh() = default;
+
+  /// One part. Throws InputError when a triangle names a vertex that is not there, or there are 2^32 - 1 triangles or more.
+  TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles);
+
+  /// Appends a part whose triangles index `vertices` from 0, and returns its number. Moves when it is the first, copies otherwise.
+  /// Throws as the constructor does, and leaves the mesh as it was.
+  std::uint32_t add_part(std::vector<Vec3> vertices, std::vector<Triangle> triangles);
+
+  /// Number of triangles, over all parts.
+  [[nodiscard]] std::size_t size() const { return triangles_.size(); }
+  [[nodiscard]] std::size_t part_count() const { return part_first_triangle_.size(); }
+
+  [[nodiscard]] std::span<const Vec3> vertices() const { return vertices_; }
+  /// Indices into `vertices()`, over all parts.
+  [[nodiscard]] std::span<const Triangle> triangles() const { return triangles_; }
+  /// The first triangle and the first vertex of a part.
+  [[nodiscard]] std::uint32_t first_triangle(std::uint32_t part) const { return part_first_triangle_[part]; }
+  [[nodiscard]] std::uint32_t first_vertex(std::uint32_t part) const { return part_first_vertex_[part]; }
+
+  /// Bounds of triangle i; empty when it can never be hit.
+  [[nodiscard]] Box bounds(std::size_t i) const;
+
+  /// Bounds of the part of triangle i inside `box`: exact up to outward rounding; empty when they do not meet.
+  [[nodiscard]] Box clip(std::size_t i, const Box& box) const;
+
+  [[nodiscard]] static PreparedRay prepare(const Ray& ray) { return WatertightRay(ray); }
+
+  /// Tests triangle i; on a hit that is closer than `hit` (or as close, with a lower id) replaces it. `hit.primitive` is a whole-mesh
+  /// number. Returns whether it did. The counter takes part only for geometries that nest others.
+  template <typename Counter>
+  bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, Counter& /*counter*/) const {
+    const Triangle& triangle = triangles_[i];
+    return intersect_watertight(ray, vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z],
+                                static_cast<std::uint32_t>(i), hit);
+  }
+
+  /// Whether triangle i is hit with t in [ray.t_min, ray.t_max].
+  template <typename Counter>
+  bool occluded(std::size_t i, const PreparedRay& ray, Counter& /*counter*/) const {
+    const Triangle& triangle = triangles_[i];
+    return occluded_watertight(ray, vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z]);
+  }
+
+  /// Completes a traversal's hit: sets `geometry` and makes `primitive` count within it. O(log parts).
+  void locate(Hit& hit) const;
+
+ private:
+  std::vector<Vec3> vertices_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint32_t> part_first_triangle_;
+  std::vector<std::uint32_t> part_first_vertex_;
+};
+
+}  // namespace grove

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "grove/geometry/hit.h"
+#include "grove/geometry/ray.h"
+#include "grove/math/box.h"
+
+namespace grove {
+
+/// Primitives of the program's own: boxes, and a function that tells where a ray meets one.
+///
+/// Derive, override `size`, `bounds` and `intersect_primitive`, and hand a shared_ptr to `build`. All functions may be called by many
+/// threads at once and must not throw.
+class UserGeometry {
+ public:
+  using PreparedRay = Ray;
+
+  virtual ~UserGeometry() = default;
+
+  [[nodiscard]] virtual std::size_t size() const = 0;
+
+  /// Must enclose every point that `intersect_primitive` reports. Empty for a primitive that is never hit.
+  [[nodiscard]] virtual Box bounds(std::size_t i) const = 0;
+
+  /// Where `ray` first meets primitive i with t in [ray.t_min, ray.t_max]: sets t, u and v of `hit` (nothing else) and returns true; or
+  /// returns false and leaves `hit`. Must give the same answer for the same ray, whatever ray.t_max is, as long as t is inside.
+  [[nodiscard]] virtual bool intersect_primitive(std::size_t i, const Ray& ray, Hit& hit) const = 0;
+
+  [[nodiscard]] Box clip(std::size_t i, const Box& box) const { return bounds(i).intersection(box); }
+  [[nodiscard]] static PreparedRay prepare(const Ray& ray) { return ray; }
+
+  template <typename Counter>
+  bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, Counter& /*counter*/) const {
+    return intersect_closer(i, ray, hit);
+  }
+  template <typename Counter>
+  bool occluded(std::size_t i, const PreparedRay& ray, Counter& /*counter*/) const {
+    Hit hit;
+    return intersect_primitive(i, ray, hit);
+  }
+  void locate(Hit& hit) const { hit.geometry = hit ? 0 : kInvalidId; }
+
+ private:
+  bool intersect_closer(std::size_t i, const Ray& ray, Hit& hit) const;
+};
+
+}  // namespace grove

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "grove/geometry/traceable.h"
+
+namespace grove {
+
+/// What a built structure is made of. The names are those of the JSON of `grove inspect`.
+struct StructureStatistics {
+  std::uint64_t primitives = 0;
+  std::uint64_t references = 0;  ///< entries in leaves; more than primitives where splits duplicate
+  std::uint64_t nodes = 0;       ///< interior nodes and leaves
+  std::uint64_t leaves = 0;
+  std::uint32_t depth = 0;    ///< edges from the root to the deepest leaf; 0 for a single leaf
+  std::uint64_t bytes = 0;    ///< kept for tracing, without the geometry itself
+  double build_seconds = 0.0; ///< wall clock
+  double expected_cost = 0.0; ///< surface-area cost of tracing one ray that meets the root (see build/cost_model.h)
+  /// leaf_sizes[n] is the number of leaves with n references; the last entry counts all larger ones as well.
+  std::vector<std::uint64_t> leaf_sizes;
+  /// depths[d] is the number of leaves at depth d.
+  std::vector<std::uint64_t> depths;
+};
+
+/// One node, for drawing.
+struct NodeView {
+  Box box;
+  std::uint32_t depth = 0;
+  bool is_leaf = false;
+  std::uint32_t reference_count = 0;  ///< leaves only
+};
+
+/// A built structure over one geometry, its type erased: one virtual call a batch, none a node. Immutable; any number of threads may
+/// trace it. Made by `build` (registry/registry.h).
+class Accelerator : public Traceable {
+ public:
+  /// The canonical spec: family and the keys that differ from their defaults.
+  [[nodiscard]] virtual const std::string& spec() const = 0;
+  [[nodiscard]] virtual const StructureStatistics& statistics() const = 0;
+  /// Calls `visit` for each node, parents before children.
+  virtual void visit_nodes(const std::function<void(const NodeView&)>& visit) const = 0;
+
+  /// Closest hits: hits[i] answers rays[i]. The spans must be of equal length. Runs in the calling thread; split the batch to use more.
+  /// When `counts` is not empty it must be as long, and counts[i] is set to what ray i did.
+  virtual void intersect(std::span<const Ray> rays, std::span<Hit> hits, std::span<TraversalCounts> counts = {}) const = 0;
+
+  /// Any hits: occluded[i] becomes 1 where something is hit within [t_min, t_max] of rays[i], else 0. Otherwise as `intersect`.
+  virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded,
+                        std::span<TraversalCounts> counts = {}) const = 0;
+
+  /// A batch of one.
+  [[nodiscard]] Hit intersect(const Ray& ray) const { return closest_hit(ray, nullptr); }
+  [[nodiscard]] bool occluded(const Ray& ray) const { return any_hit(ray, nullptr); }
+};
+
+}  // namespace grove
