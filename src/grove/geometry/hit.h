@@ -29,4 +29,10 @@ struct Hit {
 
 static_assert(sizeof(Hit) == 24);
 
+/// The order of candidates during a traversal, when `hit.t` starts as the ray's t_max: nearer first, then the lower primitive id. A
+/// distance that is not finite is no hit.
+[[nodiscard]] inline bool is_closer(float t, std::uint32_t primitive, const Hit& hit) {
+  return (t < hit.t || (t == hit.t && primitive < hit.primitive)) && t < std::numeric_limits<float>::infinity();
+}
+
 }  // namespace grove

@@ -6,7 +6,7 @@ namespace grove {
 
 /// What one query did. Counted only when asked for.
 struct TraversalCounts {
-  std::uint64_t nodes_visited = 0;      ///< nodes whose volume was tested against the ray, or cells entered
+  std::uint64_t nodes_visited = 0;      ///< interior nodes stepped through (all their children's volumes tested), or cells entered
   std::uint64_t primitives_tested = 0;  ///< ray-primitive tests; an instance counts as one test at the top level
   std::uint64_t leaves_entered = 0;
   std::uint32_t stack_depth = 0;  ///< deepest stack of pending nodes; the maximum, not the sum, over nested levels

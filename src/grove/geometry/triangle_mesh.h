@@ -15,7 +15,7 @@ namespace grove {
 /// Triangles over shared vertices, made of one or more parts (a part is one mesh of a scene, one material).
 ///
 /// During traversal a primitive is known by its number in the whole mesh, which orders by part first; `locate` turns it into
-/// (geometry = part, primitive within the part). Triangles with a coordinate that is not finite, or beyond 1e38, can never be hit
+/// (geometry = part, primitive within the part). Triangles with a coordinate that is not finite, or beyond kMaxCoordinate, can never be hit
 /// and have empty bounds. Memory: 12 bytes a vertex and 12 a triangle.
 class TriangleMesh {
  public:
@@ -54,8 +54,8 @@ class TriangleMesh {
   template <typename Counter>
   bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, Counter& /*counter*/) const {
     const Triangle& triangle = triangles_[i];
-    return intersect_watertight(ray, vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z],
-                                static_cast<std::uint32_t>(i), hit);
+    return intersect_watertight(ray, vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z], static_cast<std::uint32_t>(i),
+                                hit);
   }
 
   /// Whether triangle i is hit with t in [ray.t_min, ray.t_max].

@@ -11,9 +11,7 @@ struct Box {
   Vec3 lower{std::numeric_limits<float>::infinity()};
   Vec3 upper{-std::numeric_limits<float>::infinity()};
 
-  [[nodiscard]] bool is_empty() const {
-    return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z);
-  }
+  [[nodiscard]] bool is_empty() const { return !(lower.x <= upper.x && lower.y <= upper.y && lower.z <= upper.z); }
 
   // `candidate < current ? candidate : current` keeps the current bound when the candidate is NaN.
   void grow(const Vec3& point) {
@@ -31,9 +29,7 @@ struct Box {
   }
 
   /// The part that both boxes share; empty when they do not touch.
-  [[nodiscard]] Box intersection(const Box& other) const {
-    return {glm::max(lower, other.lower), glm::min(upper, other.upper)};
-  }
+  [[nodiscard]] Box intersection(const Box& other) const { return {glm::max(lower, other.lower), glm::min(upper, other.upper)}; }
 
   [[nodiscard]] bool contains(const Box& other) const {
     return other.is_empty() || (lower.x <= other.lower.x && lower.y <= other.lower.y && lower.z <= other.lower.z &&

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-
 namespace grove {
 
 Transform::Transform(const Mat4& matrix) : matrix_(matrix), identity_(matrix == Mat4(1.0F)) {

@@ -16,10 +16,10 @@ struct StructureStatistics {
   std::uint64_t references = 0;  ///< entries in leaves; more than primitives where splits duplicate
   std::uint64_t nodes = 0;       ///< interior nodes and leaves
   std::uint64_t leaves = 0;
-  std::uint32_t depth = 0;    ///< edges from the root to the deepest leaf; 0 for a single leaf
-  std::uint64_t bytes = 0;    ///< kept for tracing, without the geometry itself
-  double build_seconds = 0.0; ///< wall clock
-  double expected_cost = 0.0; ///< surface-area cost of tracing one ray that meets the root (see build/cost_model.h)
+  std::uint32_t depth = 0;     ///< edges from the root to the deepest leaf; 0 for a single leaf
+  std::uint64_t bytes = 0;     ///< kept for tracing, without the geometry itself
+  double build_seconds = 0.0;  ///< wall clock
+  double expected_cost = 0.0;  ///< surface-area cost of tracing one ray that meets the root (see build/cost_model.h)
   /// leaf_sizes[n] is the number of leaves with n references; the last entry counts all larger ones as well.
   std::vector<std::uint64_t> leaf_sizes;
   /// depths[d] is the number of leaves at depth d.
@@ -49,8 +49,7 @@ class Accelerator : public Traceable {
   virtual void intersect(std::span<const Ray> rays, std::span<Hit> hits, std::span<TraversalCounts> counts = {}) const = 0;
 
   /// Any hits: occluded[i] becomes 1 where something is hit within [t_min, t_max] of rays[i], else 0. Otherwise as `intersect`.
-  virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded,
-                        std::span<TraversalCounts> counts = {}) const = 0;
+  virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, std::span<TraversalCounts> counts = {}) const = 0;
 
   /// A batch of one.
   [[nodiscard]] Hit intersect(const Ray& ray) const { return closest_hit(ray, nullptr); }

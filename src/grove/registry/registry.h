@@ -29,9 +29,7 @@ struct SpecKey {
   std::string_view summary;
 
   [[nodiscard]] bool is_number() const { return values.empty(); }
-  [[nodiscard]] std::string default_value() const {
-    return is_number() ? std::to_string(default_number) : std::string(values.front());
-  }
+  [[nodiscard]] std::string default_value() const { return is_number() ? std::to_string(default_number) : std::string(values.front()); }
 };
 
 /// A family of structures: what `grove structures` lists.

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace grove {
+
+/// The structure that has no structure.
+struct Brute {};
+
+}  // namespace grove

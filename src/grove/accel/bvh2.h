@@ -1,0 +1,85 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "grove/math/box.h"
+
+namespace grove {
+
+/// An interior node of a binary hierarchy: the boxes of both children, so that one cache line decides where a ray goes next.
+///
+///   bytes  0..47  planes[axis] = { lower of child 0, lower of child 1, upper of child 0, upper of child 1 }
+///   bytes 48..55  first[child]: the child's node, or its first reference when it is a leaf
+///   bytes 56..63  count[child]: references of a leaf; 0 for a node
+struct alignas(64) Bvh2Node {
+  float planes[3][4];
+  std::uint32_t first[2];
+  std::uint32_t count[2];
+
+  [[nodiscard]] Box child_box(int child) const {
+    Box box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = planes[axis][child];
+      box.upper[axis] = planes[axis][child + 2];
+    }
+    return box;
+  }
+
+  void set_child_box(int child, const Box& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+      planes[axis][child] = box.lower[axis];
+      planes[axis][child + 2] = box.upper[axis];
+    }
+  }
+};
+
+static_assert(sizeof(Bvh2Node) == 64);
+
+/// A binary bounding volume hierarchy over axis-aligned boxes, as plain data.
+///
+/// Node 0 is the root and its children are nodes of a higher number than their parent. A hierarchy whose root is a leaf has no nodes;
+/// `references` then holds that leaf. Knows boxes and primitive ids, no geometry.
+struct Bvh2 {
+  /// Builders never go deeper, so traversals keep their stack in an array of this size.
+  static constexpr std::uint32_t kMaxDepth = 96;
+
+  std::vector<Bvh2Node> nodes;
+  std::vector<std::uint32_t> references;  ///< primitive ids, leaf by leaf
+  Box bounds;                             ///< empty when there are no references
+  std::uint32_t depth = 0;                ///< edges from the root to the deepest leaf
+
+  /// Bytes kept for tracing.
+  [[nodiscard]] std::size_t memory() const { return nodes.size() * sizeof(Bvh2Node) + references.size() * sizeof(std::uint32_t); }
+
+  /// The first broken invariant in words, or an empty string: each child's box inside its parent's, each reference in exactly one leaf
+  /// and below `primitive_count`, each node reached once, `depth` as found. O(nodes + references).
+  [[nodiscard]] std::string validate(std::size_t primitive_count) const;
+
+  /// Calls visit(box, depth, first, count) for each node and leaf, parents first; count is 0 for an interior node.
+  template <typename Visitor>
+  void visit(const Visitor& visitor) const;
+};
+
+template <typename Visitor>
+void Bvh2::visit(const Visitor& visitor) const {
+  struct Pending {
+    Box box;
+    std::uint32_t depth, first, count;
+  };
+  if (references.empty()) return;
+  const bool root_is_leaf = nodes.empty();
+  std::vector<Pending> stack{{bounds, 0, 0, root_is_leaf ? static_cast<std::uint32_t>(references.size()) : 0}};
+  while (!stack.empty()) {
+    const Pending top = stack.back();
+    stack.pop_back();
+    visitor(top.box, top.depth, top.first, top.count);
+    if (top.count > 0) continue;
+    const Bvh2Node& node = nodes[top.first];
+    for (int child = 1; child >= 0; --child) stack.push_back({node.child_box(child), top.depth + 1, node.first[child], node.count[child]});
+  }
+}
+
+}  // namespace grove

@@ -1,0 +1,36 @@
+#include "grove/build/cost_model.h"
+
+#include <cmath>
+#include <limits>
+
+#include "grove/accel/bvh2.h"
+
+namespace grove {
+
+AreaMeasure::AreaMeasure(const Box& scene) {
+  if (scene.is_empty()) return;
+  const float side = scene.extent()[scene.longest_axis()];
+  if (!(side > 0.0F)) return;
+  const float inverse = 1.0F / side;
+  scale_ = std::isinf(inverse) ? std::numeric_limits<float>::max() : inverse;
+}
+
+double AreaMeasure::half_area(const Box& box) const {
+  if (box.is_empty()) return 0.0;
+  const glm::dvec3 d = (glm::dvec3(box.upper) - glm::dvec3(box.lower)) * static_cast<double>(scale_);
+  return d.x * (d.y + d.z) + d.y * d.z;
+}
+
+double expected_cost(const Bvh2& bvh, const CostModel& model) {
+  const AreaMeasure measure(bvh.bounds);
+  const double root_area = measure.half_area(bvh.bounds);
+  double sum = 0.0;
+  bvh.visit([&](const Box& box, std::uint32_t /*depth*/, std::uint32_t /*first*/, std::uint32_t count) {
+    // A scene without area (all in one point or on one line) is met by every ray that meets its root.
+    const double probability = root_area > 0.0 ? measure.half_area(box) / root_area : 1.0;
+    sum += probability * (count > 0 ? model.intersection * count : model.traversal);
+  });
+  return sum;
+}
+
+}  // namespace grove

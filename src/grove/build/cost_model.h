@@ -1,0 +1,36 @@
+#pragma once
+
+// The surface-area cost model (Goldsmith and Salmon 1987; MacDonald and Booth 1990): a ray that meets a convex body meets a convex body
+// inside it with the ratio of their areas as probability.
+
+#include <cstdint>
+
+#include "grove/math/box.h"
+
+namespace grove {
+
+struct Bvh2;
+
+/// Relative times of the steps of a traversal. Only their ratio matters to a builder.
+struct CostModel {
+  double traversal = 1.0;     ///< stepping through one interior node (both children's boxes)
+  double intersection = 1.0;  ///< testing one primitive
+};
+
+/// Half the surface area after dividing all lengths by the largest side of a whole scene, so that neither huge nor tiny coordinates
+/// overflow or vanish.
+class AreaMeasure {
+ public:
+  explicit AreaMeasure(const Box& scene);
+  [[nodiscard]] float scale() const { return scale_; }
+  [[nodiscard]] double half_area(const Box& box) const;
+
+ private:
+  float scale_ = 1.0F;
+};
+
+/// Expected time of tracing one ray that meets the root: the sum over interior nodes of traversal * area / root area, and over leaves of
+/// intersection * references * area / root area. 0 for an empty hierarchy. O(nodes).
+[[nodiscard]] double expected_cost(const Bvh2& bvh, const CostModel& model);
+
+}  // namespace grove

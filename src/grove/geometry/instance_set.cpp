@@ -1,0 +1,83 @@
+#include "grove/geometry/instance_set.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "grove/base/error.h"
+
+namespace grove {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// The part of the ray inside an instance's world bounds. A hit is looked for in this stretch only, so that whether it is found does not
+// depend on how a structure above came to the instance.
+Ray clip_to_bounds(const InstanceSet::PreparedRay& prepared, const Box& bounds, float t_max) {
+  double near = prepared.ray.t_min > 0.0F ? prepared.ray.t_min : 0.0F;
+  double far = t_max;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double inverse = prepared.inverse_direction[axis];
+    const double low = static_cast<double>(bounds.lower[axis]) - prepared.ray.origin[axis];
+    const double high = static_cast<double>(bounds.upper[axis]) - prepared.ray.origin[axis];
+    if (std::isinf(inverse)) {
+      if (low > 0.0 || high < 0.0) far = -1.0;
+      continue;
+    }
+    near = std::fmax(near, (inverse > 0.0 ? low : high) * inverse);
+    far = std::fmin(far, (inverse > 0.0 ? high : low) * inverse);
+  }
+  Ray ray = prepared.ray;
+  // Rounded outward, but never beyond the ray itself.
+  ray.t_min = std::fmax(prepared.ray.t_min, std::nextafter(static_cast<float>(near), -kInfinity));
+  ray.t_max = near <= far ? std::fmin(t_max, std::nextafter(static_cast<float>(far), kInfinity)) : -kInfinity;
+  return ray;
+}
+
+// Into object space. t keeps its meaning, because the direction is transformed without being normalised.
+Ray to_object(const Ray& ray, const Transform& transform) {
+  if (transform.is_identity()) return ray;
+  Ray result = ray;
+  result.origin = transform.inverse_point(ray.origin);
+  result.direction = transform.inverse_vector(ray.direction);
+  return result;
+}
+
+}  // namespace
+
+InstanceSet::InstanceSet(std::vector<Instance> instances) : instances_(std::move(instances)) {
+  if (instances_.size() >= kInvalidId) throw InputError("a scene may have at most 2^32 - 2 instances");
+  bounds_.reserve(instances_.size());
+  for (const Instance& instance : instances_) {
+    Box box;
+    if (instance.object && instance.object_to_world.is_invertible()) box = instance.object_to_world.box(instance.object->bounds());
+    // As for triangles: what lies beyond the limit, or overflows, cannot be hit.
+    const bool usable = Ray::is_within(box.lower, kMaxCoordinate) && Ray::is_within(box.upper, kMaxCoordinate);
+    bounds_.push_back(usable ? box : Box{});
+  }
+}
+
+InstanceSet::PreparedRay InstanceSet::prepare(const Ray& ray) {
+  return {ray, 1.0 / glm::dvec3(ray.direction)};
+}
+
+bool InstanceSet::intersect(std::size_t i, const PreparedRay& ray, Hit& hit, TraversalCounts* counts) const {
+  if (bounds_[i].is_empty()) return false;
+  const Ray clipped = clip_to_bounds(ray, bounds_[i], hit.t);
+  if (!(clipped.t_min <= clipped.t_max)) return false;
+  const Hit found = instances_[i].object->closest_hit(to_object(clipped, instances_[i].object_to_world), counts);
+  const auto id = static_cast<std::uint32_t>(i);
+  if (!found || !(found.t < hit.t || (found.t == hit.t && id < hit.instance))) return false;
+  hit = found;
+  hit.instance = id;
+  return true;
+}
+
+bool InstanceSet::occluded(std::size_t i, const PreparedRay& ray, TraversalCounts* counts) const {
+  if (bounds_[i].is_empty()) return false;
+  const Ray clipped = clip_to_bounds(ray, bounds_[i], ray.ray.t_max);
+  if (!(clipped.t_min <= clipped.t_max)) return false;
+  return instances_[i].object->any_hit(to_object(clipped, instances_[i].object_to_world), counts);
+}
+
+}  // namespace grove

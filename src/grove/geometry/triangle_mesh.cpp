@@ -1,0 +1,65 @@
+#include "grove/geometry/triangle_mesh.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "grove/base/error.h"
+#include "grove/geometry/clip_triangle.h"
+#include "grove/geometry/part_table.h"
+
+namespace grove {
+
+TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles) {
+  add_part(std::move(vertices), std::move(triangles));
+}
+
+std::uint32_t TriangleMesh::add_part(std::vector<Vec3> vertices, std::vector<Triangle> triangles) {
+  if (vertices_.size() + vertices.size() >= kInvalidId || triangles_.size() + triangles.size() >= kInvalidId)
+    throw InputError("a mesh may have at most 2^32 - 2 vertices and triangles; split it into instances");
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const Triangle& triangle = triangles[i];
+    const std::uint32_t largest = std::max({triangle.x, triangle.y, triangle.z});
+    if (largest >= vertices.size())
+      throw InputError("triangle " + std::to_string(i) + " names vertex " + std::to_string(largest) + ", but there are only " +
+                       std::to_string(vertices.size()));
+  }
+  const auto part = static_cast<std::uint32_t>(part_first_triangle_.size());
+  const auto vertex_offset = static_cast<std::uint32_t>(vertices_.size());
+  part_first_triangle_.push_back(static_cast<std::uint32_t>(triangles_.size()));
+  part_first_vertex_.push_back(vertex_offset);
+  if (part == 0) {
+    vertices_ = std::move(vertices);
+    triangles_ = std::move(triangles);
+    return part;
+  }
+  vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
+  triangles_.reserve(std::max(triangles_.size() + triangles.size(), triangles_.capacity()));
+  for (const Triangle& triangle : triangles) triangles_.push_back(triangle + vertex_offset);
+  return part;
+}
+
+Box TriangleMesh::bounds(std::size_t i) const {
+  const Triangle& triangle = triangles_[i];
+  Box box;
+  for (int corner = 0; corner < 3; ++corner) {
+    const Vec3& v = vertices_[triangle[corner]];
+    if (!Ray::is_within(v, kMaxCoordinate)) return {};
+    box.grow(v);
+  }
+  return box;
+}
+
+Box TriangleMesh::clip(std::size_t i, const Box& box) const {
+  const Box whole = bounds(i);
+  if (whole.is_empty() || box.contains(whole)) return whole;
+  const Triangle& triangle = triangles_[i];
+  return clip_triangle(vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z], box);
+}
+
+void TriangleMesh::locate(Hit& hit) const {
+  locate_in_parts(part_first_triangle_, hit);
+}
+
+}  // namespace grove

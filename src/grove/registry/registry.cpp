@@ -1,0 +1,52 @@
+#include "grove/registry/registry.h"
+
+#include <limits>
+#include <utility>
+
+#include "grove/base/error.h"
+#include "grove/registry/families.h"
+
+namespace grove {
+namespace {
+
+// The one list of structures: tests, command, lab and bindings go through it.
+constexpr RegistryRow kRows[] = {
+    {describe_brute, build_brute},
+    {describe_bvh, build_bvh},
+};
+
+constexpr std::string_view kRepresentativeSpecs[] = {"brute", "bvh"};
+
+}  // namespace
+
+std::span<const StructureFamily> structure_families() {
+  static const std::vector<StructureFamily> families = [] {
+    std::vector<StructureFamily> list;
+    for (const RegistryRow& row : kRows) list.push_back(row.describe());
+    return list;
+  }();
+  return families;
+}
+
+std::span<const std::string_view> representative_specs() {
+  return kRepresentativeSpecs;
+}
+
+std::string canonical_spec(std::string_view spec) {
+  return Spec::parse(spec).canonical();
+}
+
+std::unique_ptr<Accelerator> build(GeometryPointer geometry, std::string_view spec) {
+  const Spec parsed = Spec::parse(spec);
+  const std::size_t size = std::visit([](const auto& set) { return set->size(); }, geometry);
+  if (size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    throw InputError("a structure may have at most 2^31 - 1 primitives, not " + std::to_string(size) + "; split it into instances");
+  const auto row = static_cast<std::size_t>(&parsed.family() - structure_families().data());
+  return kRows[row].build(parsed, geometry);
+}
+
+std::unique_ptr<Accelerator> build(TriangleMesh mesh, std::string_view spec) {
+  return build(std::make_shared<const TriangleMesh>(std::move(mesh)), spec);
+}
+
+}  // namespace grove
