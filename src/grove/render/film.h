@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "grove/math/vector.h"
+
+namespace grove {
+
+/// Sums of samples per pixel, row 0 at the top. A pixel is written by one thread at a time and its samples are added in order of their
+/// number, so that the sums do not depend on the threads. The means are linear.
+class Film {
+ public:
+  /// What one camera sample saw: light, and guides for a denoiser from the first surface (zero where there is none).
+  struct Sample {
+    Vec3 radiance{0.0F};
+    Vec3 albedo{0.0F};
+    Vec3 normal{0.0F};  ///< world space, unit length, on the viewer's side
+  };
+
+  struct Pixel {
+    Sample sum;
+    std::uint32_t sample_count = 0;
+  };
+
+  Film() = default;
+  Film(std::uint32_t width, std::uint32_t height) : width_(width), height_(height), pixels_(std::size_t{width} * height) {}
+
+  [[nodiscard]] std::uint32_t width() const { return width_; }
+  [[nodiscard]] std::uint32_t height() const { return height_; }
+
+  /// Adds a sample, unless its radiance holds a NaN, an infinity or a negative number: then returns false and leaves the pixel.
+  bool add(std::uint32_t x, std::uint32_t y, const Sample& sample);
+
+  /// The mean of the samples; zeros where there is none.
+  [[nodiscard]] Sample mean(std::uint32_t x, std::uint32_t y) const;
+
+  [[nodiscard]] const Pixel& pixel(std::uint32_t x, std::uint32_t y) const { return pixels_[std::size_t{y} * width_ + x]; }
+
+ private:
+  std::uint32_t width_ = 0;
+  std::uint32_t height_ = 0;
+  std::vector<Pixel> pixels_;
+};
+
+}  // namespace grove
