@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "grove/base/huge_vector.h"
 #include "grove/math/box.h"
 
 namespace grove {
@@ -12,27 +13,24 @@ namespace grove {
 /// An interior node of a binary hierarchy: the boxes of both children, so that one cache line decides where a ray goes next.
 ///
 ///   bytes  0..47  planes[axis] = { lower of child 0, lower of child 1, upper of child 0, upper of child 1 }
-///   bytes 48..55  first[child]: the child's node, or its first reference when it is a leaf
-///   bytes 56..63  count[child]: references of a leaf; 0 for a node
+///   bytes 48..63  child[0], child[1]
 struct alignas(64) Bvh2Node {
-  float planes[3][4];
-  std::uint32_t first[2];
-  std::uint32_t count[2];
+  /// What a child is: `count` references from `first` on when it is a leaf; with a count of 0 the node number `first`.
+  struct Child {
+    std::uint32_t first;
+    std::uint32_t count;
+  };
 
-  [[nodiscard]] Box child_box(int child) const {
+  float planes[3][4];
+  Child child[2];
+
+  [[nodiscard]] Box child_box(int index) const {
     Box box;
     for (int axis = 0; axis < 3; ++axis) {
-      box.lower[axis] = planes[axis][child];
-      box.upper[axis] = planes[axis][child + 2];
+      box.lower[axis] = planes[axis][index];
+      box.upper[axis] = planes[axis][index + 2];
     }
     return box;
-  }
-
-  void set_child_box(int child, const Box& box) {
-    for (int axis = 0; axis < 3; ++axis) {
-      planes[axis][child] = box.lower[axis];
-      planes[axis][child + 2] = box.upper[axis];
-    }
   }
 };
 
@@ -46,10 +44,10 @@ struct Bvh2 {
   /// Builders never go deeper, so traversals keep their stack in an array of this size.
   static constexpr std::uint32_t kMaxDepth = 96;
 
-  std::vector<Bvh2Node> nodes;
-  std::vector<std::uint32_t> references;  ///< primitive ids, leaf by leaf
-  Box bounds;                             ///< empty when there are no references
-  std::uint32_t depth = 0;                ///< edges from the root to the deepest leaf
+  HugeVector<Bvh2Node> nodes;
+  HugeVector<std::uint32_t> references;  ///< primitive ids, leaf by leaf
+  Box bounds;                            ///< empty when there are no references
+  std::uint32_t depth = 0;               ///< edges from the root to the deepest leaf
 
   /// Bytes kept for tracing.
   [[nodiscard]] std::size_t memory() const { return nodes.size() * sizeof(Bvh2Node) + references.size() * sizeof(std::uint32_t); }
@@ -78,7 +76,8 @@ void Bvh2::visit(const Visitor& visitor) const {
     visitor(top.box, top.depth, top.first, top.count);
     if (top.count > 0) continue;
     const Bvh2Node& node = nodes[top.first];
-    for (int child = 1; child >= 0; --child) stack.push_back({node.child_box(child), top.depth + 1, node.first[child], node.count[child]});
+    for (int child = 1; child >= 0; --child)
+      stack.push_back({node.child_box(child), top.depth + 1, node.child[child].first, node.child[child].count});
   }
 }
 

@@ -8,8 +8,7 @@ namespace grove {
 }  // namespace grove
 
 /// Always on. For bugs whose cost would be silent corruption.
-#define GROVE_CHECK(condition) \
-  ((condition) ? static_cast<void>(0) : ::grove::fail_check(#condition, __FILE__, __LINE__))
+#define GROVE_CHECK(condition) ((condition) ? static_cast<void>(0) : ::grove::fail_check(#condition, __FILE__, __LINE__))
 
 /// On in builds without NDEBUG. For invariants in hot code.
 #ifdef NDEBUG

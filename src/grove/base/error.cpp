@@ -16,7 +16,6 @@ std::string located(std::string_view file, std::string_view place, std::string_v
 
 }  // namespace
 
-InputError::InputError(std::string_view file, std::string_view place, std::string_view problem)
-    : Error(located(file, place, problem)) {}
+InputError::InputError(std::string_view file, std::string_view place, std::string_view problem) : Error(located(file, place, problem)) {}
 
 }  // namespace grove

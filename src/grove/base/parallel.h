@@ -19,9 +19,7 @@ void parallel_ranges(std::size_t count, std::size_t grain, const Body& body) {
     return;
   }
   oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, count, grain),
-                            [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
-                              body(range.begin(), range.end());
-                            });
+                            [&](const oneapi::tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
 }
 
 /// Calls `body(i)` for each i in [0, count), in parallel in the caller's oneTBB arena.

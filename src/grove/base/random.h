@@ -27,9 +27,7 @@ class Random {
   }
 
   /// Uniform over [0, bound); `bound` > 0. Bias below bound / 2^32.
-  constexpr std::uint32_t next_u32(std::uint32_t bound) {
-    return static_cast<std::uint32_t>(((next_u64() >> 32) * bound) >> 32);
-  }
+  constexpr std::uint32_t next_u32(std::uint32_t bound) { return static_cast<std::uint32_t>(((next_u64() >> 32) * bound) >> 32); }
 
   /// Uniform over [0, 1), a multiple of 2^-24.
   constexpr float next_float() { return static_cast<float>(next_u64() >> 40) * 0x1p-24F; }

@@ -10,9 +10,7 @@ class Timer {
   Timer() : start_(std::chrono::steady_clock::now()) {}
 
   /// Seconds since construction.
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
 
  private:
   std::chrono::steady_clock::time_point start_;

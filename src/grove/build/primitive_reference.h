@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "grove/base/huge_vector.h"
 #include "grove/base/parallel.h"
 #include "grove/geometry/geometry_concept.h"
 #include "grove/math/float4.h"
@@ -33,7 +34,7 @@ static_assert(sizeof(PrimitiveReference) == 32);
 
 /// References of a geometry, in order of id, without the primitives that can never be hit.
 struct ReferenceList {
-  std::vector<PrimitiveReference> references;
+  HugeVector<PrimitiveReference> references;
   Box bounds;
 };
 

@@ -27,11 +27,7 @@ struct Range {
   Box4 centres = Box4::empty();  // doubled
 };
 
-// What a parent stores about a child: a leaf when count > 0, otherwise a node.
-struct Link {
-  std::uint32_t first = 0;
-  std::uint32_t count = 0;
-};
+using Child = Bvh2Node::Child;
 
 Range measure(const PrimitiveReference* references, std::uint32_t first, std::uint32_t count) {
   Range range{first, count};
@@ -73,7 +69,7 @@ Decision decide(const Range& range, const BinnedSplit& split, std::uint32_t dept
 // A finished part of the hierarchy: nodes numbered from 0 whose root is node 0, or a single leaf, or a node over two parts.
 struct Part {
   std::vector<Bvh2Node> nodes;
-  Link link;
+  Child link{};
   std::uint32_t depth = 0;
   std::unique_ptr<Part> children[2];
   Box4 bounds[2];
@@ -97,7 +93,7 @@ class SubtreeBuilder {
   }
 
  private:
-  Link build_range(const Range& range, std::uint32_t depth) {
+  Child build_range(const Range& range, std::uint32_t depth) {
     if (range.count == 1) return make_leaf(range, depth);
     BinnedSplit split;
     const BinMapping mapping(range.centres, range.count);
@@ -119,17 +115,15 @@ class SubtreeBuilder {
     }
     const auto index = static_cast<std::uint32_t>(part_.nodes.size());
     set_children(part_.nodes.emplace_back(), left.bounds, right.bounds);
-    const Link left_link = build_range(left, depth + 1);
-    const Link right_link = build_range(right, depth + 1);
+    const Child left_child = build_range(left, depth + 1);
+    const Child right_child = build_range(right, depth + 1);
     Bvh2Node& node = part_.nodes[index];
-    node.first[0] = left_link.first;
-    node.count[0] = left_link.count;
-    node.first[1] = right_link.first;
-    node.count[1] = right_link.count;
+    node.child[0] = left_child;
+    node.child[1] = right_child;
     return {index, 0};
   }
 
-  Link make_leaf(const Range& range, std::uint32_t depth) {
+  Child make_leaf(const Range& range, std::uint32_t depth) {
     deepest_ = std::max(deepest_, depth);
     for (std::uint32_t i = range.first; i < range.first + range.count; ++i) ids_[i] = references_[i].primitive();
     return {range.first, range.count};
@@ -181,15 +175,10 @@ class SubtreeBuilder {
 // Builds the top of the hierarchy, moving references between two buffers, and hands smaller ranges to SubtreeBuilder.
 class TopBuilder {
  public:
-  TopBuilder(std::vector<PrimitiveReference>& references, std::uint32_t* ids, const TopDownSettings& settings, float area_scale)
+  TopBuilder(HugeVector<PrimitiveReference>& references, std::uint32_t* ids, const TopDownSettings& settings, float area_scale)
       : buffers_{references.data(), nullptr}, ids_(ids), settings_(settings), area_scale_(area_scale) {
-    if (references.size() > kTaskSize) {
-      scratch_ = std::make_unique_for_overwrite<std::byte[]>(references.size() * sizeof(PrimitiveReference) + alignof(PrimitiveReference));
-      void* aligned = scratch_.get();
-      std::size_t space = references.size() * sizeof(PrimitiveReference) + alignof(PrimitiveReference);
-      buffers_[1] = static_cast<PrimitiveReference*>(
-          std::align(alignof(PrimitiveReference), references.size() * sizeof(PrimitiveReference), aligned, space));
-    }
+    if (references.size() > kTaskSize) scratch_.resize(references.size());
+    buffers_[1] = scratch_.data();
   }
 
   Part build(const Range& range, std::uint32_t depth, int buffer) {
@@ -269,7 +258,7 @@ class TopBuilder {
   std::uint32_t* ids_;
   const TopDownSettings& settings_;
   float area_scale_;
-  std::unique_ptr<std::byte[]> scratch_;
+  HugeVector<PrimitiveReference> scratch_;
 };
 
 // Gives each part its place in depth-first order; returns the end.
@@ -279,30 +268,28 @@ std::uint32_t place(Part& part, std::uint32_t offset) {
   return place(*part.children[1], place(*part.children[0], offset + 1));
 }
 
-Link copy_nodes(Part& part, Bvh2Node* nodes) {
+Child copy_nodes(Part& part, Bvh2Node* nodes) {
   if (part.is_leaf()) return part.link;
   if (part.children[0] == nullptr) {
     for (std::size_t i = 0; i < part.nodes.size(); ++i) {
       Bvh2Node node = part.nodes[i];
       for (int child = 0; child < 2; ++child)
-        if (node.count[child] == 0) node.first[child] += part.offset;
+        if (node.child[child].count == 0) node.child[child].first += part.offset;
       nodes[part.offset + i] = node;
     }
     part.nodes = {};
     return {part.offset, 0};
   }
-  Link links[2];
-  parallel_invoke([&] { links[0] = copy_nodes(*part.children[0], nodes); }, [&] { links[1] = copy_nodes(*part.children[1], nodes); });
+  Child children[2];
+  parallel_invoke([&] { children[0] = copy_nodes(*part.children[0], nodes); }, [&] { children[1] = copy_nodes(*part.children[1], nodes); });
   Bvh2Node& node = nodes[part.offset];
   set_children(node, part.bounds[0], part.bounds[1]);
-  for (int child = 0; child < 2; ++child) {
-    node.first[child] = links[child].first;
-    node.count[child] = links[child].count;
-  }
+  node.child[0] = children[0];
+  node.child[1] = children[1];
   return {part.offset, 0};
 }
 
-Range measure_all(const std::vector<PrimitiveReference>& references) {
+Range measure_all(const HugeVector<PrimitiveReference>& references) {
   const std::size_t chunk_size = kChunkSize;
   std::vector<Range> chunks((references.size() + chunk_size - 1) / chunk_size);
   parallel_chunks(references.size(), chunk_size, [&](std::size_t id, std::size_t first, std::size_t last) {

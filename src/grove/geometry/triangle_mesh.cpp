@@ -29,13 +29,7 @@ std::uint32_t TriangleMesh::add_part(std::vector<Vec3> vertices, std::vector<Tri
   const auto vertex_offset = static_cast<std::uint32_t>(vertices_.size());
   part_first_triangle_.push_back(static_cast<std::uint32_t>(triangles_.size()));
   part_first_vertex_.push_back(vertex_offset);
-  if (part == 0) {
-    vertices_ = std::move(vertices);
-    triangles_ = std::move(triangles);
-    return part;
-  }
   vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
-  triangles_.reserve(std::max(triangles_.size() + triangles.size(), triangles_.capacity()));
   for (const Triangle& triangle : triangles) triangles_.push_back(triangle + vertex_offset);
   return part;
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "grove/base/huge_vector.h"
 #include "grove/geometry/hit.h"
 #include "grove/geometry/watertight_triangle.h"
 #include "grove/math/box.h"
@@ -26,7 +27,7 @@ class TriangleMesh {
   /// One part. Throws InputError when a triangle names a vertex that is not there, or there are 2^32 - 1 triangles or more.
   TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> triangles);
 
-  /// Appends a part whose triangles index `vertices` from 0, and returns its number. Moves when it is the first, copies otherwise.
+  /// Appends a part whose triangles index `vertices` from 0, and returns its number.
   /// Throws as the constructor does, and leaves the mesh as it was.
   std::uint32_t add_part(std::vector<Vec3> vertices, std::vector<Triangle> triangles);
 
@@ -54,8 +55,8 @@ class TriangleMesh {
   template <typename Counter>
   bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, Counter& /*counter*/) const {
     const Triangle& triangle = triangles_[i];
-    return intersect_watertight(ray, vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z], static_cast<std::uint32_t>(i),
-                                hit);
+    const auto id = static_cast<std::uint32_t>(i);
+    return intersect_watertight(ray, vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z], &id, hit);
   }
 
   /// Whether triangle i is hit with t in [ray.t_min, ray.t_max].
@@ -69,8 +70,8 @@ class TriangleMesh {
   void locate(Hit& hit) const;
 
  private:
-  std::vector<Vec3> vertices_;
-  std::vector<Triangle> triangles_;
+  HugeVector<Vec3> vertices_;
+  HugeVector<Triangle> triangles_;
   std::vector<std::uint32_t> part_first_triangle_;
   std::vector<std::uint32_t> part_first_vertex_;
 };

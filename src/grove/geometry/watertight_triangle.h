@@ -78,18 +78,18 @@ struct Edges {
 }  // namespace watertight
 
 /// Tests one triangle. When it is hit within [ray.t_min, hit.t], closer than `hit` or as close with a lower id, replaces `hit` (t, u, v
-/// and primitive) and returns true.
-inline bool intersect_watertight(const WatertightRay& ray, const Vec3& v0, const Vec3& v1, const Vec3& v2, std::uint32_t primitive,
+/// and primitive) and returns true. `primitive` points to the id, so that it is read only where it is needed.
+inline bool intersect_watertight(const WatertightRay& ray, const Vec3& v0, const Vec3& v1, const Vec3& v2, const std::uint32_t* primitive,
                                  Hit& hit) {
   watertight::Edges edges;
   if (!watertight::test_edges(ray, v0, v1, v2, edges)) return false;
   const float t = watertight::hit_distance(ray, v0, v1, v2, edges);
-  if (!(t >= ray.ray.t_min && t >= 0.0F && is_closer(t, primitive, hit))) return false;
+  if (!(t >= ray.ray.t_min && t >= 0.0F && is_closer(t, *primitive, hit))) return false;
   const float sum = edges.u + edges.v + edges.w;
   hit.t = t;
   hit.u = edges.v / sum;
   hit.v = edges.w / sum;
-  hit.primitive = primitive;
+  hit.primitive = *primitive;
   return true;
 }
 

@@ -14,7 +14,6 @@ StructureStatistics measure(const Bvh2& bvh, const CostModel& cost) {
   StructureStatistics statistics;
   statistics.references = bvh.references.size();
   statistics.depth = bvh.depth;
-  statistics.bytes = bvh.memory();
   statistics.expected_cost = expected_cost(bvh, cost);
   statistics.leaf_sizes.resize(kHistogramSize);
   statistics.depths.resize(bvh.depth + 1);
@@ -28,8 +27,9 @@ StructureStatistics measure(const Bvh2& bvh, const CostModel& cost) {
   return statistics;
 }
 
-void visit_bvh(const Bvh2& bvh, const std::function<void(const NodeView&)>& visit) {
-  bvh.visit([&](const Box& box, std::uint32_t depth, std::uint32_t /*first*/, std::uint32_t count) {
+template <Geometry G>
+void visit_bvh(const TraceableBvh2<G>& structure, const std::function<void(const NodeView&)>& visit) {
+  structure.bvh.visit([&](const Box& box, std::uint32_t depth, std::uint32_t /*first*/, std::uint32_t count) {
     visit({box, depth, count > 0, count});
   });
 }
@@ -40,14 +40,16 @@ std::unique_ptr<Accelerator> build_over(const Spec& spec, std::shared_ptr<const 
   settings.leaf_size = static_cast<std::uint32_t>(spec.number("leaf-size"));
   const Timer timer;
   Bvh2 bvh = build_binned(list_references(*geometry), settings);
-  const double seconds = timer.seconds();
   GROVE_ASSERT(bvh.validate(geometry->size()).empty());
-  StructureStatistics statistics = measure(bvh, settings.cost);
+  TraceableBvh2<G> structure(std::move(bvh), *geometry);
+  const double seconds = timer.seconds();
+  StructureStatistics statistics = measure(structure.bvh, settings.cost);
+  statistics.bytes = structure.memory();
   statistics.primitives = geometry->size();
   statistics.build_seconds = seconds;
-  const Box bounds = bvh.bounds;
-  return std::make_unique<StructureAccelerator<Bvh2, G>>(std::move(bvh), std::move(geometry), spec.canonical(), bounds,
-                                                         std::move(statistics), visit_bvh);
+  const Box bounds = structure.bvh.bounds;
+  return std::make_unique<StructureAccelerator<TraceableBvh2<G>, G>>(std::move(structure), std::move(geometry), spec.canonical(), bounds,
+                                                                     std::move(statistics), visit_bvh<G>);
 }
 
 }  // namespace

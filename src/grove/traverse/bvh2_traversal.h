@@ -4,9 +4,11 @@
 // entered, the farther waits on a stack with its distance and is dropped at pop when a closer hit has been found since.
 
 #include <cstdint>
+#include <utility>
 
 #include "grove/accel/bvh2.h"
 #include "grove/geometry/geometry_concept.h"
+#include "grove/geometry/leaf_storage.h"
 #include "grove/math/float4.h"
 #include "grove/traverse/slab_ray.h"
 
@@ -26,24 +28,27 @@ class Bvh2Slabs {
 
   /// Entry distances of both children; a child that the ray misses within `limits` has its bit unset in the result.
   /// `limits` is {t_min, t_min, -t_max, -t_max}.
-  int test(const Bvh2Node& node, Float4 limits, float entry[2]) const {
+  [[gnu::always_inline]] int test(const Bvh2Node& node, Float4 limits, float entry[2]) const {
     // max(a, b) is b when a is NaN: a ray inside a plane is not limited by it.
     Float4 t = max((planes(node, 0) - origin_[0]) * inverse_[0], limits);
     t = max((planes(node, 1) - origin_[1]) * inverse_[1], t);
     t = max((planes(node, 2) - origin_[2]) * inverse_[2], t);
-    const Float4 exits = -t;
     entry[0] = t[0];
     entry[1] = t[1];
-    return static_cast<int>(t[0] <= exits[2]) | (static_cast<int>(t[1] <= exits[3]) << 1);
+    const Float4 exits = -__builtin_shufflevector(t, t, 2, 3, 2, 3);
+    return first_two_lanes(t <= exits);
   }
 
  private:
-  [[nodiscard]] Float4 planes(const Bvh2Node& node, int axis) const {
-    Float4 result;
+  // Two loads of two planes each, put together as doubles: a register is filled without a way through memory.
+  [[nodiscard, gnu::always_inline]] Float4 planes(const Bvh2Node& node, int axis) const {
+    using Double2 = double __attribute__((vector_size(16)));
     const float* row = node.planes[axis];
-    std::memcpy(&result, row + near_[axis], 2 * sizeof(float));
-    std::memcpy(reinterpret_cast<char*>(&result) + 2 * sizeof(float), row + (2 - near_[axis]), 2 * sizeof(float));
-    return result;
+    double near;
+    double far;
+    std::memcpy(&near, row + near_[axis], sizeof near);
+    std::memcpy(&far, row + 2 - near_[axis], sizeof far);
+    return reinterpret_cast<Float4>(Double2{near, far});
   }
 
   Float4 origin_[3];
@@ -52,9 +57,9 @@ class Bvh2Slabs {
 };
 
 /// Walks the leaves that the ray meets, near to far as far as the boxes tell. `leaf(first, count)` tests references, may lower `t_max`,
-/// and returns true to end the walk. `ray` must be traceable.
-template <typename LeafTest, typename C>
-void walk(const Bvh2& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, C& counter) {
+/// and returns true to end the walk; `prefetch_leaf(first)` asks for a leaf that may be next. `ray` must be traceable.
+template <typename LeafTest, typename LeafPrefetch, typename C>
+void walk(const Bvh2& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, const LeafPrefetch& prefetch_leaf, C& counter) {
   if (bvh.references.empty()) return;
   if (bvh.nodes.empty()) {
     counter.enter_leaf();
@@ -62,7 +67,7 @@ void walk(const Bvh2& bvh, const Ray& ray, const float& t_max, const LeafTest& l
     return;
   }
   struct Entry {
-    std::uint32_t first, count;
+    Bvh2Node::Child child;
     float t;
   };
   Entry stack[Bvh2::kMaxDepth + 1];
@@ -71,32 +76,40 @@ void walk(const Bvh2& bvh, const Ray& ray, const float& t_max, const LeafTest& l
   const float t_min = ray.t_min > 0.0F ? ray.t_min : 0.0F;
   Float4 limits{t_min, t_min, -t_max, -t_max};
   const Bvh2Node* const nodes = bvh.nodes.data();
-  std::uint32_t current = 0;
+  Bvh2Node::Child next{0, 0};
   for (;;) {
-    const Bvh2Node& node = nodes[current];
+    const Bvh2Node& node = nodes[next.first];
     counter.visit_node();
+    // Either child may be next.
+    for (const Bvh2Node::Child& child : node.child) {
+      if (child.count == 0) {
+        __builtin_prefetch(nodes + child.first);
+      } else {
+        prefetch_leaf(child.first);
+      }
+    }
     float entry[2];
     const int met = slabs.test(node, limits, entry);
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-    bool have_next = true;
+    // Branches rather than selects: a guess lets the next node's load start before this one's test is done.
     if (met == 3) {
-      const int nearer = entry[1] < entry[0] ? 1 : 0;
-      stack[stack_size++] = {node.first[1 - nearer], node.count[1 - nearer], entry[1 - nearer]};
+      if (entry[1] < entry[0]) {
+        stack[stack_size++] = {node.child[0], entry[0]};
+        next = node.child[1];
+      } else {
+        stack[stack_size++] = {node.child[1], entry[1]};
+        next = node.child[0];
+      }
       counter.reach_stack_depth(stack_size);
-      first = node.first[nearer];
-      count = node.count[nearer];
-    } else if (met != 0) {
-      first = node.first[met - 1];
-      count = node.count[met - 1];
-    } else {
-      have_next = false;
+    } else if (met == 1) {
+      next = node.child[0];
+    } else if (met == 2) {
+      next = node.child[1];
     }
-    for (;;) {
-      if (have_next) {
-        if (count == 0) break;
+    bool pending = met != 0;
+    while (!pending || next.count > 0) {
+      if (pending) {
         counter.enter_leaf();
-        if (leaf(first, count)) return;
+        if (leaf(next.first, next.count)) return;
         limits = Float4{t_min, t_min, -t_max, -t_max};
       }
       // A tie must still be visited: the primitive there may have a lower id.
@@ -104,41 +117,55 @@ void walk(const Bvh2& bvh, const Ray& ray, const float& t_max, const LeafTest& l
         if (stack_size == 0) return;
         --stack_size;
       } while (stack[stack_size].t > t_max);
-      first = stack[stack_size].first;
-      count = stack[stack_size].count;
-      have_next = true;
+      next = stack[stack_size].child;
+      pending = true;
     }
-    current = first;
   }
 }
 
+/// A hierarchy together with the way its leaves reach the primitives of a geometry.
+template <Geometry G>
+struct TraceableBvh2 {
+  Bvh2 bvh;
+  LeafStorage<G> leaves;
+
+  TraceableBvh2(Bvh2 hierarchy, const G& geometry) : bvh(std::move(hierarchy)), leaves(geometry, bvh.references) {}
+
+  /// Bytes kept for tracing.
+  [[nodiscard]] std::size_t memory() const { return bvh.memory() + leaves.memory(); }
+};
+
 /// Closest hit. `hit.t` must start as the ray's t_max.
 template <Geometry G, typename C>
-void trace_closest(const Bvh2& bvh, const G& geometry, const Ray& ray, Hit& hit, C& counter) {
+void trace_closest(const TraceableBvh2<G>& structure, const G& geometry, const Ray& ray, Hit& hit, C& counter) {
   const typename G::PreparedRay prepared = geometry.prepare(ray);
+  const std::uint32_t* const references = structure.bvh.references.data();
   const auto test_leaf = [&](std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t i = first; i < first + count; ++i) {
+    for (std::uint32_t slot = first; slot < first + count; ++slot) {
       counter.test_primitive();
-      geometry.intersect(bvh.references[i], prepared, hit, counter);
+      structure.leaves.intersect(geometry, references, slot, prepared, hit, counter);
     }
     return false;
   };
-  walk(bvh, ray, hit.t, test_leaf, counter);
+  const auto prefetch_leaf = [&](std::uint32_t first) { structure.leaves.prefetch(references, first); };
+  walk(structure.bvh, ray, hit.t, test_leaf, prefetch_leaf, counter);
 }
 
 /// Any hit within [ray.t_min, ray.t_max].
 template <Geometry G, typename C>
-bool trace_any(const Bvh2& bvh, const G& geometry, const Ray& ray, C& counter) {
+bool trace_any(const TraceableBvh2<G>& structure, const G& geometry, const Ray& ray, C& counter) {
   const typename G::PreparedRay prepared = geometry.prepare(ray);
+  const std::uint32_t* const references = structure.bvh.references.data();
   bool found = false;
   const auto test_leaf = [&](std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t i = first; i < first + count && !found; ++i) {
+    for (std::uint32_t slot = first; slot < first + count && !found; ++slot) {
       counter.test_primitive();
-      found = geometry.occluded(bvh.references[i], prepared, counter);
+      found = structure.leaves.occluded(geometry, references, slot, prepared, counter);
     }
     return found;
   };
-  walk(bvh, ray, ray.t_max, test_leaf, counter);
+  const auto prefetch_leaf = [&](std::uint32_t first) { structure.leaves.prefetch(references, first); };
+  walk(structure.bvh, ray, ray.t_max, test_leaf, prefetch_leaf, counter);
   return found;
 }
 
