@@ -15,14 +15,16 @@ if(GROVE_WARNINGS_AS_ERRORS)
 endif()
 
 # grove_room(NAME SOURCES a.cpp… DEPENDS room… LIBRARIES target… PRIVATE_LIBRARIES target…)
+# Libraries of other packages are named PACKAGE::target, which is how the installed package knows what to look for.
 function(grove_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;DEPENDS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   add_library(grove_${name} STATIC ${ROOM_SOURCES})
   add_library(grove::${name} ALIAS grove_${name})
   list(TRANSFORM ROOM_DEPENDS PREPEND grove_)
   target_include_directories(grove_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include>)
+  # Private libraries are linked by whoever links this static one; CMake exports them as such. Warnings stay here.
   target_link_libraries(grove_${name}
     PUBLIC grove_flags ${ROOM_DEPENDS} ${ROOM_LIBRARIES}
-    PRIVATE $<BUILD_INTERFACE:grove_warnings> $<BUILD_INTERFACE:${ROOM_PRIVATE_LIBRARIES}>)
+    PRIVATE $<BUILD_INTERFACE:grove_warnings> ${ROOM_PRIVATE_LIBRARIES})
   set_target_properties(grove_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
 endfunction()

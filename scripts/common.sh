@@ -13,6 +13,7 @@ die() {
   exit 1
 }
 
+export jobs # also for the functions that xargs runs
 jobs=$(nproc)
 
 # Every C++ file of ours, one a line.
