@@ -27,6 +27,15 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
   return a > b ? a : b;
 }
 
+/// Bit 0 and 1: whether lanes 0 and 1 of a comparison are true.
+[[nodiscard]] inline int first_two_lanes(Int4 mask) {
+#ifdef __SSE__
+  return __builtin_ia32_movmskps(reinterpret_cast<Float4>(mask)) & 3;
+#else
+  return (mask[0] & 1) | (mask[1] & 2);
+#endif
+}
+
 /// Unaligned.
 [[nodiscard]] inline Float4 load4(const float* p) {
   Float4 v;
