@@ -23,7 +23,7 @@ struct SlabRay {
   float origin_far[3];
   float inverse_near[3];
   float inverse_far[3];
-  bool negative[3];  ///< the direction's component is negative: the upper plane is the near one
+  bool negative[3];  ///< the direction's component has its sign bit set: the upper plane is the near one
 
   SlabRay(const Ray& ray, const Box& bounds) {
     float largest = 0.0F;
@@ -37,7 +37,7 @@ struct SlabRay {
     for (int axis = 0; axis < 3; ++axis) {
       const float o = ray.origin[axis];
       const float d = ray.direction[axis];
-      negative[axis] = d < 0.0F;
+      negative[axis] = std::signbit(d);  // also of -0, whose inverse is minus infinity
       const float low = next_below(o - pad);
       const float high = next_above(o + pad);
       origin_near[axis] = negative[axis] ? low : high;

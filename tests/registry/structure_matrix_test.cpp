@@ -1,0 +1,222 @@
+// Every registered structure against brute force, on every kind of geometry and on rays that aim at trouble: hits must be equal bit for bit.
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/task_arena.h>
+#include <rapidcheck/gtest.h>
+
+#include <bit>
+#include <map>
+
+#include "grove/base/random.h"
+#include "registry/matrix_geometry.h"
+#include "registry/matrix_rays.h"
+
+namespace grove::test {
+namespace {
+
+// The representative specs, and each value of each key on its own.
+std::vector<std::string> matrix_specs() {
+  std::vector<std::string> specs(representative_specs().begin(), representative_specs().end());
+  for (const StructureFamily& family : structure_families()) {
+    for (const SpecKey& key : family.keys) {
+      std::vector<std::string> values(key.values.begin(), key.values.end());
+      if (key.is_number()) values = {std::to_string(key.minimum), std::to_string(key.maximum)};
+      for (const std::string& value : values) {
+        const std::string spec = canonical_spec(std::string(family.name) + ":" + std::string(key.name) + "=" + value);
+        if (std::find(specs.begin(), specs.end(), spec) == specs.end()) specs.push_back(spec);
+      }
+    }
+  }
+  return specs;
+}
+
+// Those that build something.
+std::vector<std::string> built_specs() {
+  std::vector<std::string> specs = matrix_specs();
+  std::erase(specs, "brute");
+  return specs;
+}
+
+const std::vector<NamedGeometry>& geometries() {
+  static const std::vector<NamedGeometry> all = matrix_geometries();
+  return all;
+}
+
+bool same_bits(const Hit& a, const Hit& b) {
+  return std::bit_cast<std::array<std::uint32_t, 6>>(a) == std::bit_cast<std::array<std::uint32_t, 6>>(b);
+}
+
+std::string describe(const Ray& ray) {
+  char line[256];
+  std::snprintf(line, sizeof line, "origin (%a %a %a) direction (%a %a %a) t [%a, %a]", ray.origin.x, ray.origin.y, ray.origin.z,
+                ray.direction.x, ray.direction.y, ray.direction.z, ray.t_min, ray.t_max);
+  return line;
+}
+
+std::string describe(const Hit& hit) {
+  char line[128];
+  std::snprintf(line, sizeof line, "t %a u %a v %a primitive %u geometry %u instance %u", hit.t, hit.u, hit.v, hit.primitive, hit.geometry,
+                hit.instance);
+  return line;
+}
+
+void expect_equal_hits(const Accelerator& structure, const Accelerator& oracle, const std::vector<Ray>& rays) {
+  std::size_t differences = 0;
+  for (const Ray& ray : rays) {
+    const Hit expected = oracle.intersect(ray);
+    const Hit found = structure.intersect(ray);
+    const bool any = structure.occluded(ray);
+    if (same_bits(expected, found) && any == static_cast<bool>(expected)) continue;
+    if (++differences <= 3)
+      ADD_FAILURE() << describe(ray) << "\n  expected " << describe(expected) << "\n  found    " << describe(found) << "\n  any hit  "
+                    << any;
+  }
+  EXPECT_EQ(differences, 0U) << "of " << rays.size() << " rays";
+}
+
+class StructureMatrix : public testing::TestWithParam<std::tuple<std::string, std::size_t>> {
+ protected:
+  [[nodiscard]] static std::string spec() { return std::get<0>(GetParam()); }
+  [[nodiscard]] static const NamedGeometry& geometry() { return geometries()[std::get<1>(GetParam())]; }
+};
+
+TEST_P(StructureMatrix, HitsEqualBruteForce) {
+  const std::unique_ptr<Accelerator> oracle = build(geometry().geometry, "brute");
+  const std::unique_ptr<Accelerator> structure = build(geometry().geometry, spec());
+  expect_equal_hits(*structure, *oracle, matrix_rays(geometry().geometry, 150, 42));
+}
+
+TEST_P(StructureMatrix, BatchesAndCountersChangeNothing) {
+  const std::unique_ptr<Accelerator> structure = build(geometry().geometry, spec());
+  const std::vector<Ray> rays = matrix_rays(geometry().geometry, 20, 43);
+  std::vector<Hit> hits(rays.size());
+  std::vector<Hit> counted_hits(rays.size());
+  std::vector<std::uint8_t> occluded(rays.size());
+  std::vector<std::uint8_t> counted_occluded(rays.size());
+  std::vector<TraversalCounts> counts(rays.size());
+  structure->intersect(rays, hits);
+  structure->intersect(rays, counted_hits, counts);
+  structure->occluded(rays, occluded);
+  structure->occluded(rays, counted_occluded, counts);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    EXPECT_TRUE(same_bits(hits[i], structure->intersect(rays[i])));
+    EXPECT_TRUE(same_bits(hits[i], counted_hits[i]));
+    EXPECT_EQ(occluded[i] != 0, static_cast<bool>(hits[i]));
+    EXPECT_EQ(occluded[i], counted_occluded[i]);
+  }
+}
+
+TEST_P(StructureMatrix, StatisticsAddUp) {
+  const std::unique_ptr<Accelerator> structure = build(geometry().geometry, spec());
+  const StructureStatistics& statistics = structure->statistics();
+  EXPECT_EQ(statistics.primitives, size_of(geometry().geometry));
+  EXPECT_GE(statistics.expected_cost, 0.0);
+  EXPECT_TRUE(std::isfinite(statistics.expected_cost));
+  std::uint64_t nodes = 0;
+  std::uint64_t leaves = 0;
+  std::uint64_t references = 0;
+  std::uint32_t depth = 0;
+  structure->visit_nodes([&](const NodeView& node) {
+    ++nodes;
+    leaves += node.is_leaf ? 1 : 0;
+    references += node.is_leaf ? node.reference_count : 0;
+    depth = std::max(depth, node.depth);
+    EXPECT_TRUE(structure->bounds().contains(node.box));
+  });
+  if (spec() == "brute") return;
+  EXPECT_EQ(nodes, statistics.nodes);
+  EXPECT_EQ(leaves, statistics.leaves);
+  EXPECT_EQ(references, statistics.references);
+  EXPECT_EQ(depth, statistics.depth);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, StructureMatrix,
+                         testing::Combine(testing::ValuesIn(matrix_specs()), testing::Range<std::size_t>(0, geometries().size())),
+                         [](const auto& test) {
+                           std::string name = std::get<0>(test.param) + "_" + geometries()[std::get<1>(test.param)].name;
+                           for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+                           return name;
+                         });
+
+class EachStructure : public testing::TestWithParam<std::string> {};
+
+// Random triangles with corners on a lattice of eight steps a side, and rays between lattice points: ties, shared edges, rays in planes and
+// through corners are the rule.
+RC_GTEST_PROP(LatticeProperty, HitsEqualBruteForce, ()) {
+  const auto corner = rc::gen::map(rc::gen::tuple(rc::gen::inRange(0, 9), rc::gen::inRange(0, 9), rc::gen::inRange(0, 9)),
+                                   [](const std::tuple<int, int, int>& c) { return Vec3(std::get<0>(c), std::get<1>(c), std::get<2>(c)); });
+  const auto corners = *rc::gen::container<std::vector<Vec3>>(corner);
+  const auto ends = *rc::gen::container<std::vector<std::pair<Vec3, Vec3>>>(rc::gen::pair(corner, corner));
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i + 2 < corners.size(); ++i) triangles.push_back({i, i + 1, i + 2});
+  const auto mesh = std::make_shared<const TriangleMesh>(corners, triangles);
+  const auto oracle = build(GeometryPointer(mesh), "brute");
+  for (const std::string& spec : matrix_specs()) {
+    const auto structure = build(GeometryPointer(mesh), spec);
+    for (const auto& [from, to] : ends) {
+      const Ray ray{from, 0.0F, to - from, 2.0F};
+      const Hit expected = oracle->intersect(ray);
+      RC_ASSERT(same_bits(structure->intersect(ray), expected));
+      RC_ASSERT(structure->occluded(ray) == static_cast<bool>(expected));
+    }
+  }
+}
+
+// The whole structure as one string of bytes that can be compared.
+std::vector<std::uint64_t> fingerprint(const Accelerator& structure) {
+  std::vector<std::uint64_t> words;
+  structure.visit_nodes([&](const NodeView& node) {
+    for (int axis = 0; axis < 3; ++axis) {
+      words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(node.box.lower[axis])));
+      words.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(node.box.upper[axis])));
+    }
+    words.push_back(node.depth);
+    words.push_back(node.is_leaf ? node.reference_count + 1ULL : 0ULL);
+  });
+  return words;
+}
+
+TEST_P(EachStructure, IsTheSameForAnyNumberOfThreads) {
+  // Large enough for every stage of parallel building.
+  const auto mesh = std::make_shared<const TriangleMesh>(random_triangles(300000, 0.02F, 77));
+  const std::vector<Ray> rays = matrix_rays(GeometryPointer(mesh), 20, 44);
+  std::vector<std::uint64_t> first_nodes;
+  std::vector<Hit> first_hits(rays.size());
+  std::vector<TraversalCounts> first_counts(rays.size());
+  for (const int threads : {1, 2, 3, 8}) {
+    oneapi::tbb::task_arena arena(threads);
+    const auto structure = arena.execute([&] { return build(GeometryPointer(mesh), GetParam()); });
+    std::vector<Hit> hits(rays.size());
+    std::vector<TraversalCounts> counts(rays.size());
+    structure->intersect(rays, hits, counts);
+    if (threads == 1) {
+      first_nodes = fingerprint(*structure);
+      first_hits = hits;
+      first_counts = counts;
+      continue;
+    }
+    EXPECT_EQ(fingerprint(*structure), first_nodes) << threads << " threads";
+    EXPECT_EQ(counts, first_counts) << threads << " threads";
+    for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_TRUE(same_bits(hits[i], first_hits[i]));
+  }
+}
+
+// A million triangles whose boxes all have their centres in one point: no split can part them, yet depth and time must stay bounded.
+TEST_P(EachStructure, BuildsAMillionPrimitivesInOnePoint) {
+  const std::vector<Vec3> vertices{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const auto mesh = std::make_shared<const TriangleMesh>(vertices, std::vector<Triangle>(1000000, Triangle(0, 1, 2)));
+  const auto structure = build(GeometryPointer(mesh), GetParam());
+  EXPECT_LE(structure->statistics().depth, 64U);
+  const Hit hit = structure->intersect(Ray{{0.25F, 0.25F, 1.0F}, 0.0F, {0.0F, 0.0F, -1.0F}});
+  EXPECT_EQ(hit.t, 1.0F);
+  EXPECT_EQ(hit.primitive, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EachStructure, testing::ValuesIn(built_specs()), [](const auto& test) {
+  std::string name = test.param;
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  return name;
+});
+
+}  // namespace
+}  // namespace grove::test
