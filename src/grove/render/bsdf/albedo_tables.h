@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace grove {
+
+/// A function of the cosine to the normal and of GGX width, tabulated and interpolated. Nodes are denser where it changes quickly: at
+/// grazing angles and small widths.
+class AlbedoTable {
+ public:
+  static constexpr std::size_t kNodes = 24;
+
+  /// The coordinates of a node: cosine and alpha are the squares of i / (kNodes - 1); a cosine of 0 stands for 1e-4.
+  [[nodiscard]] static float node_cosine(std::size_t i);
+  [[nodiscard]] static float node_alpha(std::size_t i);
+
+  [[nodiscard]] float& at(std::size_t alpha_node, std::size_t cosine_node) { return values_[alpha_node * kNodes + cosine_node]; }
+  /// Arguments are clamped to [0, 1].
+  [[nodiscard]] float operator()(float cosine, float alpha) const;
+
+ private:
+  std::array<float, kNodes * kNodes> values_{};
+};
+
+/// A function of GGX width alone, on the same nodes.
+class AverageTable {
+ public:
+  [[nodiscard]] float& at(std::size_t alpha_node) { return values_[alpha_node]; }
+  [[nodiscard]] float operator()(float alpha) const;
+
+ private:
+  std::array<float, AlbedoTable::kNodes> values_{};
+};
+
+/// What a GGX mirror returns of light from everywhere, for Schlick reflectance F0 + (1 - F0) w: F0 * scale + bias
+/// (Karis 2013, "Real Shading in Unreal Engine 4"), single scattering.
+struct GgxAlbedo {
+  AlbedoTable scale;
+  AlbedoTable bias;
+  /// Cosine-weighted means of the reflectance after compensation, as a polynomial in F0: constant + linear F0 + quadratic F0^2.
+  AverageTable mean_constant;
+  AverageTable mean_linear;
+  AverageTable mean_quadratic;
+};
+
+/// Made on first use; may be called by many threads at once.
+[[nodiscard]] const GgxAlbedo& ggx_albedo();
+
+/// What a rough boundary between two dielectrics reflects and lets through in single scattering, from its outer side (index 0, where the
+/// light is in the thinner medium) and its inner side (index 1). Divided by their sum they lose nothing.
+struct DielectricAlbedo {
+  /// `ior` of the inner side over the outer, above 0. Takes some tens of milliseconds.
+  explicit DielectricAlbedo(float ior);
+
+  float ior;
+  std::array<AlbedoTable, 2> reflected;
+  std::array<AlbedoTable, 2> total;
+  /// Cosine-weighted mean of reflected / total.
+  std::array<AverageTable, 2> mean_reflectance;
+};
+
+}  // namespace grove

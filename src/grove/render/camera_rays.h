@@ -1,0 +1,30 @@
+#pragma once
+
+#include "grove/geometry/ray.h"
+#include "grove/math/box.h"
+#include "grove/scene/camera.h"
+
+namespace grove {
+
+/// Rays of a camera for a film of a given size.
+class CameraRays {
+ public:
+  /// Throws InputError when the camera's transform cannot be inverted or its field of view is not between 0 and pi.
+  CameraRays(const Camera& camera, std::uint32_t width, std::uint32_t height);
+
+  /// The ray through `film` (pixels, (0, 0) the upper left corner of the picture); `lens` in [0, 1)^2 chooses the point on a thin lens. The
+  /// direction is of unit length.
+  [[nodiscard]] Ray ray(const Vec2& film, const Vec2& lens) const;
+
+ private:
+  Mat4 camera_to_world_;
+  Vec2 scale_;   // from pixels to the plane at z = -1
+  Vec2 corner_;  // upper left, on that plane
+  float lens_radius_;
+  float focus_distance_;
+};
+
+/// A view of the whole of `bounds` from above and a little to the side, +y up, for a film of this aspect (width over height).
+[[nodiscard]] Camera frame_bounds(const Box& bounds, float aspect);
+
+}  // namespace grove

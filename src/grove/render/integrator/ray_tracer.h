@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+
+#include "grove/render/prepared_scene.h"
+#include "grove/render/sampling/sampler.h"
+
+namespace grove {
+
+/// Where a ray first met something that it could not pass.
+struct SurfaceHit {
+  Hit hit;
+  Ray ray;  ///< the last piece, after passing through surfaces
+  SurfacePoint point;
+};
+
+/// Traces the rays of one camera sample through what lets light pass (alpha, interfaces), and counts them. For one thread.
+class RayTracer {
+ public:
+  RayTracer(const PreparedScene& world, const Sampler& sampler) : world_(&world), sampler_(&sampler) {}
+
+  /// The first surface along `ray` that stops it; a partly transparent one does by chance. False when there is none.
+  [[nodiscard]] bool find_surface(const Ray& ray, SurfaceHit& result);
+
+  /// The part of light, in [0, 1], that comes from `sample` to `point`, which it leaves towards `sample.direction`.
+  [[nodiscard]] float transmittance(const SurfacePoint& point, const LightSample& sample);
+
+  /// The same along a ray of finite or infinite length.
+  [[nodiscard]] float transmittance(Ray ray);
+
+  [[nodiscard]] std::uint64_t rays_traced() const { return rays_traced_; }
+
+ private:
+  const PreparedScene* world_;
+  const Sampler* sampler_;
+  std::uint64_t rays_traced_ = 0;
+  std::uint32_t chances_taken_ = 0;
+};
+
+}  // namespace grove

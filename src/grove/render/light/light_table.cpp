@@ -1,0 +1,283 @@
+#include "grove/render/light/light_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grove/render/bsdf/bsdf_types.h"
+#include "grove/render/light/punctual.h"
+#include "grove/render/material/opacity.h"
+#include "grove/render/sampling/warp.h"
+#include "grove/render/surface/frame.h"
+#include "grove/render/texture/evaluate_texture.h"
+
+namespace grove {
+namespace {
+
+// World area of a triangle, in double for tiny and huge ones.
+float triangle_area(const TriangleMesh& mesh, std::uint32_t id, const Transform& transform) {
+  const Triangle& triangle = mesh.triangles()[id];
+  const glm::dmat4 matrix(transform.matrix());
+  glm::dvec3 corner[3];
+  for (int i = 0; i < 3; ++i) corner[i] = glm::dvec3(matrix * glm::dvec4(glm::dvec3(mesh.vertices()[triangle[i]]), 1.0));
+  return static_cast<float>(0.5 * glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0])));
+}
+
+// The scale of a transform that keeps angles; 0 of one that does not.
+float similarity_scale(const Transform& transform) {
+  const Mat3 m(transform.matrix());
+  const float scale = glm::length(m[0]);
+  const float tolerance = 1e-4F * scale * scale;
+  for (int a = 0; a < 3; ++a) {
+    for (int b = 0; b < 3; ++b) {
+      const float expected = a == b ? scale * scale : 0.0F;
+      if (!(std::fabs(glm::dot(m[a], m[b]) - expected) <= tolerance)) return 0.0F;
+    }
+  }
+  return scale;
+}
+
+float power_of(const PunctualLight& light, float scene_radius) {
+  const float intensity = luminance(light.intensity);
+  switch (light.kind) {
+    case PunctualLightKind::point:
+      return 4.0F * kPi * intensity;
+    case PunctualLightKind::spot:
+      return 2.0F * kPi * (1.0F - 0.5F * (std::cos(light.inner_angle) + std::cos(light.outer_angle))) * intensity;
+    case PunctualLightKind::directional:
+      return kPi * scene_radius * scene_radius * intensity;
+  }
+  return 0.0F;
+}
+
+}  // namespace
+
+LightTable::LightTable(const Scene& scene, const SurfaceTable& surfaces) : scene_(&scene), surfaces_(&surfaces) {
+  std::vector<float> power;
+  add_surfaces(power);
+  const std::size_t surface_count = lights_.size();
+  const Box bounds = scene.bounds();
+  const float radius = bounds.is_empty() ? 1.0F : 0.5F * glm::length(bounds.extent());
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    if (!(luminance(scene.lights[i].intensity) > 0.0F)) continue;
+    lights_.push_back({.kind = Kind::punctual, .instance = i});
+    power.push_back(power_of(scene.lights[i], radius));
+  }
+  if (scene.environment.is_on()) {
+    const std::uint32_t image = scene.environment.image;
+    environment_ = EnvironmentLight(scene.environment, image == 0xffffffffU ? nullptr : scene.images[image]);
+  } else if (lights_.empty()) {
+    environment_ = make_default_sky();
+    has_default_sky_ = true;
+  }
+  if (environment_.is_on()) {
+    environment_light_ = static_cast<std::uint32_t>(lights_.size());
+    lights_.push_back({.kind = Kind::environment});
+    power.push_back(4.0F * kPi * kPi * radius * radius * environment_.mean_luminance());
+  }
+
+  double total = 0.0;
+  double surface_total = 0.0;
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    if (!std::isfinite(power[i])) power[i] = 0.0F;
+    total += static_cast<double>(power[i]);
+    if (i < surface_count) surface_total += static_cast<double>(power[i]);
+  }
+  const double kinds = static_cast<double>(power.size() - surface_count) + (surface_count > 0 ? 1.0 : 0.0);
+  std::vector<float> weights(power.size());
+  for (std::size_t i = 0; i < power.size(); ++i) {
+    const double by_power = total > 0.0 ? static_cast<double>(power[i]) / total : 0.0;
+    double evenly = 1.0 / kinds;
+    if (i < surface_count) evenly *= surface_total > 0.0 ? static_cast<double>(power[i]) / surface_total : 0.0;
+    weights[i] = static_cast<float>(0.5 * by_power + 0.5 * evenly);
+  }
+  chance_ = AliasTable(weights);
+}
+
+void LightTable::add_surfaces(std::vector<float>& power) {
+  for (std::uint32_t i = 0; i < scene_->instances.size(); ++i) {
+    const Instance& instance = scene_->instances[i];
+    const Object& object = scene_->objects[instance.object];
+    first_part_.push_back(static_cast<std::uint32_t>(first_light_.size()));
+    for (std::uint32_t p = 0; p < object.parts.size(); ++p) {
+      const Material& material = scene_->materials[object.parts[p].material];
+      first_light_.push_back(kInvalidId);
+      if (!material.is_emissive() || !instance.object_to_world.is_invertible()) continue;
+      first_light_.back() = static_cast<std::uint32_t>(lights_.size());
+      const float sides = material.two_sided_emission ? 2.0F : 1.0F;
+      const float exitance = kPi * sides * mean_luminance(*scene_, material.emission);
+      if (const auto* mesh = std::get_if<std::shared_ptr<TriangleMesh>>(&object.geometry)) {
+        const std::uint32_t first = (*mesh)->first_triangle(p);
+        const std::uint32_t last =
+            p + 1 < (*mesh)->part_count() ? (*mesh)->first_triangle(p + 1) : static_cast<std::uint32_t>((*mesh)->size());
+        for (std::uint32_t t = first; t < last; ++t) {
+          // What can never be hit must not be sampled either: its area may not even be a number.
+          const bool is_hittable = !(*mesh)->bounds(t).is_empty();
+          const float area = is_hittable ? triangle_area(**mesh, t, instance.object_to_world) : 0.0F;
+          lights_.push_back({Kind::triangle, i, p, t - first, area});
+          power.push_back(exitance * area);
+        }
+      } else {
+        const SphereSet& spheres = *std::get<std::shared_ptr<SphereSet>>(object.geometry);
+        const std::uint32_t first = spheres.first_sphere(p);
+        const std::uint32_t last = p + 1 < spheres.part_count() ? spheres.first_sphere(p + 1) : static_cast<std::uint32_t>(spheres.size());
+        const float volume_scale = std::fabs(glm::determinant(Mat3(instance.object_to_world.matrix())));
+        const float area_scale = std::pow(volume_scale, 2.0F / 3.0F);
+        for (std::uint32_t s = first; s < last; ++s) {
+          const float radius = spheres.bounds(s).is_empty() ? 0.0F : spheres.sphere(s).radius;
+          const float area = 4.0F * kPi * radius * radius;
+          lights_.push_back({Kind::sphere, i, p, s - first, area});
+          power.push_back(exitance * area * area_scale);
+        }
+      }
+    }
+  }
+}
+
+Vec3 LightTable::emitted(const SurfacePoint& point, const Vec3& direction) const {
+  const Material& material = scene_->materials[point.material];
+  if (!material.is_emissive()) return Vec3(0.0F);
+  if (!material.two_sided_emission && glm::dot(direction, point.geometric_normal) <= 0.0F) return Vec3(0.0F);
+  return evaluate(*scene_, material.emission, point.uv);
+}
+
+LightSample LightTable::sample(const Vec3& from, float u_light, const Vec2& u) const {
+  if (lights_.empty()) return {};
+  const AliasTable::Draw draw = chance_.draw(u_light);
+  const Light& light = lights_[draw.index];
+  LightSample result;
+  switch (light.kind) {
+    case Kind::triangle:
+    case Kind::sphere:
+      result = sample_surface(light, from, u);
+      break;
+    case Kind::punctual:
+      result = sample_punctual(scene_->lights[light.instance], from);
+      break;
+    case Kind::environment: {
+      const EnvironmentLight::Sample sky = environment_.sample(u);
+      result.direction = sky.direction;
+      result.radiance = sky.radiance;
+      result.pdf = sky.pdf;
+      result.is_infinite = true;
+      break;
+    }
+  }
+  result.pdf *= draw.probability;
+  return result;
+}
+
+LightSample LightTable::sample_punctual(const PunctualLight& light, const Vec3& from) const {
+  LightSample result;
+  result.pdf = 1.0F;
+  result.is_delta = true;
+  if (light.kind == PunctualLightKind::directional) {
+    result.direction = -light.direction;
+    result.radiance = light.intensity;
+    result.is_infinite = true;
+    return result;
+  }
+  const Vec3 to_light = light.position - from;
+  const float distance_squared = glm::dot(to_light, to_light);
+  if (!(distance_squared > 0.0F)) return {};
+  result.direction = to_light / std::sqrt(distance_squared);
+  result.radiance = light.intensity * (punctual_falloff(light, -result.direction) / distance_squared);
+  result.target = light.position;
+  return result;
+}
+
+LightTable::WorldSphere LightTable::world_sphere(const Light& light, const Vec3& from) const {
+  const Instance& instance = scene_->instances[light.instance];
+  const SphereSet& spheres = *std::get<std::shared_ptr<SphereSet>>(scene_->objects[instance.object].geometry);
+  const SphereSet::Sphere& sphere = spheres.sphere(spheres.first_sphere(light.geometry) + light.primitive);
+  WorldSphere result{instance.object_to_world.point(sphere.centre), sphere.radius * similarity_scale(instance.object_to_world), false};
+  const Vec3 to_centre = result.centre - from;
+  // From within, or just outside where the cone is nearly a hemisphere, area sampling serves better.
+  result.is_cone_sampled = result.radius > 0.0F && glm::dot(to_centre, to_centre) > 1.0002F * result.radius * result.radius;
+  return result;
+}
+
+namespace {
+
+// 1 - cosine of the half-angle of the cone in which a sphere is seen, exact for far spheres.
+float cone_height(float radius, float distance_squared) {
+  const float sine_squared = radius * radius / distance_squared;
+  return sine_squared / (1.0F + std::sqrt(std::max(0.0F, 1.0F - sine_squared)));
+}
+
+}  // namespace
+
+LightSample LightTable::sample_surface(const Light& light, const Vec3& from, const Vec2& u) const {
+  if (!(light.area > 0.0F)) return {};
+  SurfacePoint point;
+  if (light.kind == Kind::triangle) {
+    point = surfaces_->on_triangle(light.instance, light.geometry, light.primitive, sample_triangle(u));
+  } else {
+    const WorldSphere sphere = world_sphere(light, from);
+    Vec3 normal = sample_sphere(u);
+    if (sphere.is_cone_sampled) {
+      // A direction in the cone, and the nearer point of the sphere on it.
+      const Vec3 to_centre = sphere.centre - from;
+      const float distance_squared = glm::dot(to_centre, to_centre);
+      const float distance = std::sqrt(distance_squared);
+      const float height = u.x * cone_height(sphere.radius, distance_squared);
+      const float sine_squared = height * (2.0F - height);
+      const float phi = 2.0F * kPi * u.y;
+      const float sine = std::sqrt(sine_squared);
+      const Frame frame(to_centre / distance);
+      const Vec3 direction = frame.to_world({sine * std::cos(phi), sine * std::sin(phi), 1.0F - height});
+      const float half_chord = std::sqrt(std::max(0.0F, sphere.radius * sphere.radius - distance_squared * sine_squared));
+      const float t = distance * (1.0F - height) - half_chord;
+      const Instance& instance = scene_->instances[light.instance];
+      const Vec3 world_normal = (t * direction - to_centre) / sphere.radius;
+      normal = glm::normalize(instance.object_to_world.inverse_vector(world_normal));
+    }
+    point = surfaces_->on_sphere(light.instance, light.geometry, light.primitive, normal);
+  }
+  const Vec3 to_light = point.position - from;
+  const float distance_squared = glm::dot(to_light, to_light);
+  if (!(distance_squared > 0.0F)) return {};
+  LightSample result;
+  result.direction = to_light / std::sqrt(distance_squared);
+  result.radiance = emitted(point, -result.direction);
+  result.radiance *= opacity(*scene_, scene_->materials[point.material], point);
+  if (result.radiance == Vec3(0.0F)) return {};
+  result.pdf = surface_pdf(light, from, point);
+  result.target = point.offset_origin(-result.direction);
+  return result;
+}
+
+float LightTable::surface_pdf(const Light& light, const Vec3& from, const SurfacePoint& point) const {
+  if (!(light.area > 0.0F)) return 0.0F;
+  const Vec3 to_light = point.position - from;
+  const float distance_squared = glm::dot(to_light, to_light);
+  float area = light.area;
+  if (light.kind == Kind::sphere) {
+    const WorldSphere sphere = world_sphere(light, from);
+    if (sphere.is_cone_sampled) {
+      const Vec3 to_centre = sphere.centre - from;
+      return 1.0F / (2.0F * kPi * cone_height(sphere.radius, glm::dot(to_centre, to_centre)));
+    }
+    // Uniform on the sphere as it is in object space: the transform changes areas by |det M| |M^-T n|.
+    const Transform& transform = scene_->instances[light.instance].object_to_world;
+    const Vec3 object_normal = glm::normalize(glm::transpose(Mat3(transform.matrix())) * point.geometric_normal);
+    area *= std::fabs(glm::determinant(Mat3(transform.matrix()))) * glm::length(transform.normal(object_normal));
+  }
+  const float cosine = std::fabs(glm::dot(to_light, point.geometric_normal)) / std::sqrt(distance_squared);
+  const float pdf = distance_squared / (cosine * area);
+  return std::isfinite(pdf) ? pdf : 0.0F;
+}
+
+float LightTable::pdf_of_hit(const Vec3& from, const Hit& hit, const SurfacePoint& point) const {
+  const std::uint32_t instance = hit.instance == kInvalidId ? 0 : hit.instance;
+  const std::uint32_t first = first_light_[first_part_[instance] + hit.geometry];
+  if (first == kInvalidId) return 0.0F;
+  const std::uint32_t id = first + hit.primitive;
+  return chance_.probability(id) * surface_pdf(lights_[id], from, point);
+}
+
+float LightTable::pdf_of_environment(const Vec3& direction) const {
+  if (environment_light_ == kInvalidId) return 0.0F;
+  return chance_.probability(environment_light_) * environment_.pdf(direction);
+}
+
+}  // namespace grove

@@ -1,0 +1,150 @@
+#include "grove/render/material/material_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grove/render/material/opacity.h"
+#include "grove/render/surface/perturb_normal.h"
+#include "grove/render/texture/evaluate_texture.h"
+
+namespace grove {
+namespace {
+
+// Where indices of refraction stop to mean anything.
+constexpr float kMinIor = 0.1F;
+constexpr float kMaxIor = 10.0F;
+
+float usable_ior(float ior) {
+  return ior > 0.0F ? std::clamp(ior, kMinIor, kMaxIor) : 1.0F;
+}
+
+// A coat that is thinner than the air around it is no coat.
+float coat_ior(float ior) {
+  return std::max(1.0F, usable_ior(ior));
+}
+
+// Reflectances above 1 would make light from nothing.
+Vec3 reflectance(const Vec3& colour) {
+  return glm::clamp(colour, Vec3(0.0F), Vec3(1.0F));
+}
+
+bool is_glossy_glass(const Material& material) {
+  if (material.roughness.value == 0.0F && material.roughness.texture == kNoTexture) return false;
+  return material.kind == MaterialKind::dielectric ||
+         (material.kind == MaterialKind::metallic_roughness && material.transmission.value > 0.0F && !material.thin_walled);
+}
+
+bool has_coat(const Material& material) {
+  return material.kind == MaterialKind::coated_diffuse || material.kind == MaterialKind::coated_conductor;
+}
+
+float unit(float value) {
+  return value > 0.0F ? std::min(value, 1.0F) : 0.0F;
+}
+
+float ggx_alpha(const Scene& scene, const ScalarParameter& roughness, const Vec2& uv) {
+  const float perceptual = unit(evaluate(scene, roughness, uv));
+  return perceptual * perceptual;
+}
+
+}  // namespace
+
+MaterialTable::MaterialTable(const Scene& scene) : scene_(&scene) {
+  for (const Material& material : scene.materials) {
+    const bool passes = grove::can_pass_light(scene, material);
+    can_pass_light_.push_back(passes ? 1 : 0);
+    any_can_pass_light_ = any_can_pass_light_ || passes;
+    if (!has_coat(material) && !is_glossy_glass(material)) continue;
+    const float ior = has_coat(material) ? coat_ior(material.ior) : usable_ior(material.ior);
+    if (auto& entry = tables_[ior]; entry == nullptr) entry = std::make_unique<DielectricAlbedo>(ior);
+  }
+  (void)ggx_albedo();  // made here, outside of parallel work
+}
+
+const DielectricAlbedo* MaterialTable::table(float ior) const {
+  const auto found = tables_.find(ior);
+  return found == tables_.end() ? nullptr : found->second.get();
+}
+
+Vec3 MaterialTable::shading_normal(const SurfacePoint& point) const {
+  const Material& material = scene_->materials[point.material];
+  if (material.normal_texture == kNoTexture && material.bump.texture == kNoTexture) return point.shading_normal;
+  return perturbed_normal(*scene_, material, point);
+}
+
+Bsdf MaterialTable::metallic_roughness(const Material& material, const SurfacePoint& point, bool is_outside, float u) const {
+  const Vec3 colour = reflectance(evaluate(*scene_, material.base_colour, point.uv) * Vec3(point.colour));
+  const float alpha = ggx_alpha(*scene_, material.roughness, point.uv);
+  const float metallic = unit(evaluate(*scene_, material.metallic, point.uv));
+  const float ior = usable_ior(material.ior);
+  const float f0 = (ior - 1.0F) * (ior - 1.0F) / ((ior + 1.0F) * (ior + 1.0F));
+  const float transmission = material.transmission.value > 0.0F ? unit(evaluate(*scene_, material.transmission, point.uv)) : 0.0F;
+  // The transmissive part of the dielectric part, as a share of the whole; what is left is the same material without transmission.
+  const float share = transmission * (1.0F - metallic);
+  if (u < share) {
+    if (material.thin_walled) return ThinTransmissionBsdf{.tint = colour, .f0 = f0, .alpha = alpha};
+    return DielectricBsdf{.eta = is_outside ? ior : 1.0F / ior, .alpha = alpha, .albedo_table = table(ior), .tint = colour};
+  }
+  const float rest = share < 1.0F ? std::min(1.0F, metallic / (1.0F - share)) : 0.0F;
+  return MetallicRoughnessBsdf{.base_colour = colour, .metallic = rest, .alpha = alpha, .dielectric_f0 = f0};
+}
+
+Bsdf MaterialTable::bsdf(const SurfacePoint& point, bool is_outside, float u) const {
+  const Material* chosen = &scene_->materials[point.material];
+  while (chosen->kind == MaterialKind::mix) {
+    float amount = unit(evaluate(*scene_, chosen->mix_amount, point.uv));
+    if (can_pass_light_[point.material] != 0) {
+      // Light has met the surface already, more likely the material that lets less of it pass.
+      const float first = (1.0F - amount) * opacity(*scene_, scene_->materials[chosen->mix_material[0]], point);
+      const float second = amount * opacity(*scene_, scene_->materials[chosen->mix_material[1]], point);
+      if (first + second > 0.0F) amount = second / (first + second);
+    }
+    const bool is_second = u < amount;
+    chosen = &scene_->materials[chosen->mix_material[is_second ? 1 : 0]];
+    u = is_second ? u / amount : (u - amount) / (1.0F - amount);
+  }
+  const Material& material = *chosen;
+  const Vec2& uv = point.uv;
+  const auto base_colour = [&] { return reflectance(evaluate(*scene_, material.base_colour, uv) * Vec3(point.colour)); };
+  const auto metal = [&](float outer_ior) {
+    MetalFresnel fresnel{.has_complex_ior = material.has_complex_ior};
+    if (material.has_complex_ior) {
+      fresnel.eta = material.ior_colour / outer_ior;
+      fresnel.k = material.absorption / outer_ior;
+    } else {
+      fresnel.f0 = base_colour();
+    }
+    return ConductorBsdf{.fresnel = fresnel, .alpha = ggx_alpha(*scene_, material.roughness, uv)};
+  };
+  switch (material.kind) {
+    case MaterialKind::metallic_roughness:
+      return metallic_roughness(material, point, is_outside, u);
+    case MaterialKind::diffuse:
+      return DiffuseBsdf{base_colour()};
+    case MaterialKind::coated_diffuse: {
+      const float ior = coat_ior(material.ior);
+      return CoatedDiffuseBsdf{.coat = {ior, ggx_alpha(*scene_, material.roughness, uv), table(ior)}, .reflectance = base_colour()};
+    }
+    case MaterialKind::conductor:
+      return metal(1.0F);
+    case MaterialKind::coated_conductor: {
+      const float ior = coat_ior(material.ior);
+      return CoatedConductorBsdf{.coat = {ior, ggx_alpha(*scene_, material.coat_roughness, uv), table(ior)}, .base = metal(ior)};
+    }
+    case MaterialKind::dielectric: {
+      const float ior = usable_ior(material.ior);
+      return DielectricBsdf{
+          .eta = is_outside ? ior : 1.0F / ior, .alpha = ggx_alpha(*scene_, material.roughness, uv), .albedo_table = table(ior)};
+    }
+    case MaterialKind::thin_dielectric:
+      return ThinDielectricBsdf{usable_ior(material.ior)};
+    case MaterialKind::diffuse_transmission:
+      return DiffuseTransmissionBsdf{base_colour(), reflectance(evaluate(*scene_, material.transmission_colour, uv))};
+    case MaterialKind::interface:
+    case MaterialKind::mix:
+      break;  // an interface lets everything pass before this is asked, and a mix was resolved above
+  }
+  return DiffuseBsdf{Vec3(0.0F)};
+}
+
+}  // namespace grove

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "grove/render/bsdf/bsdf.h"
+#include "grove/render/surface/surface_point.h"
+#include "grove/scene/scene.h"
+
+namespace grove {
+
+/// The materials of a scene with the tables that their scattering functions need. Refers to the scene; any number of threads may use it.
+class MaterialTable {
+ public:
+  /// Integrates a table for each index of refraction that rough glass and coats have.
+  explicit MaterialTable(const Scene& scene);
+
+  /// The surface's scattering function for light that leaves on the outer side (of the geometric normal) or the inner. `u` in [0, 1) decides
+  /// between the materials of a mix, and between transmission and the rest of a glTF material.
+  [[nodiscard]] Bsdf bsdf(const SurfacePoint& point, bool is_outside, float u) const;
+
+  /// The shading normal with normal and bump maps, on the outer side.
+  [[nodiscard]] Vec3 shading_normal(const SurfacePoint& point) const;
+
+  /// Whether light may pass surfaces of this material (`opacity` below 1).
+  [[nodiscard]] bool can_pass_light(std::uint32_t material) const { return can_pass_light_[material] != 0; }
+  [[nodiscard]] bool any_can_pass_light() const { return any_can_pass_light_; }
+
+ private:
+  [[nodiscard]] const DielectricAlbedo* table(float ior) const;
+  [[nodiscard]] Bsdf metallic_roughness(const Material& material, const SurfacePoint& point, bool is_outside, float u) const;
+
+  const Scene* scene_;
+  std::map<float, std::unique_ptr<const DielectricAlbedo>> tables_;
+  std::vector<std::uint8_t> can_pass_light_;
+  bool any_can_pass_light_ = false;
+};
+
+}  // namespace grove

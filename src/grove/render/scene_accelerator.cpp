@@ -1,0 +1,56 @@
+#include "grove/render/scene_accelerator.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "grove/base/parallel.h"
+#include "grove/base/timer.h"
+
+namespace grove {
+namespace {
+
+GeometryPointer geometry_of(const Object& object) {
+  return std::visit([]<typename Set>(const std::shared_ptr<Set>& set) -> GeometryPointer { return std::shared_ptr<const Set>(set); },
+                    object.geometry);
+}
+
+void add_histogram(std::vector<std::uint64_t>& sum, const std::vector<std::uint64_t>& part) {
+  if (sum.size() < part.size()) sum.resize(part.size());
+  for (std::size_t i = 0; i < part.size(); ++i) sum[i] += part[i];
+}
+
+}  // namespace
+
+SceneAccelerator::SceneAccelerator(const Scene& scene, std::string_view spec) {
+  if (scene.objects.size() == 1 && scene.instances.size() == 1 && scene.instances.front().object_to_world.is_identity()) {
+    top_ = build(geometry_of(scene.objects.front()), spec);
+    statistics_ = top_->statistics();
+    return;
+  }
+  const Timer timer;
+  std::vector<std::unique_ptr<Accelerator>> built(scene.objects.size());
+  parallel_for(scene.objects.size(), 1, [&](std::size_t i) { built[i] = build(geometry_of(scene.objects[i]), spec); });
+  for (std::unique_ptr<Accelerator>& object : built) objects_.push_back(std::move(object));
+  std::vector<InstanceSet::Instance> instances;
+  instances.reserve(scene.instances.size());
+  for (const Instance& instance : scene.instances) instances.push_back({objects_[instance.object], instance.object_to_world});
+  top_ = build(std::make_shared<const InstanceSet>(std::move(instances)), spec);
+
+  statistics_ = top_->statistics();
+  std::uint32_t deepest = 0;
+  for (const std::shared_ptr<const Accelerator>& object : objects_) {
+    const StructureStatistics& part = object->statistics();
+    statistics_.primitives += part.primitives;
+    statistics_.references += part.references;
+    statistics_.nodes += part.nodes;
+    statistics_.leaves += part.leaves;
+    statistics_.bytes += part.bytes;
+    deepest = std::max(deepest, part.depth);
+    add_histogram(statistics_.leaf_sizes, part.leaf_sizes);
+    add_histogram(statistics_.depths, part.depths);
+  }
+  statistics_.depth += deepest;
+  statistics_.build_seconds = timer.seconds();  // objects are built side by side
+}
+
+}  // namespace grove
