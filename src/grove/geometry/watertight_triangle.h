@@ -10,7 +10,7 @@
 //   are exact. Triangles that share an edge therefore always agree.
 // - The paper's t, an interpolation of the vertices' depths with float weights, can be far off beside large walls. Here t comes from the
 //   triangle's plane in double, and is kept within the stretch of the ray that lies in the triangle's bounds, so that a traversal that
-//   skips boxes by distance can never lose the hit (docs/decisions/0002-watertight-triangles.md).
+//   skips boxes by distance can never lose the hit (docs/decisions/0005-hits-that-cannot-be-lost.md).
 
 #include <cmath>
 #include <cstdint>
