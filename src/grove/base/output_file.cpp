@@ -27,8 +27,11 @@ OutputFile::OutputFile(const std::filesystem::path& path) : path_(path), final_p
   std::error_code error;
   if (path.empty()) fail(ENOENT);
   // Renaming onto a link would replace the link, so the name at its end is used.
-  if (std::filesystem::is_symlink(path, error)) final_path_ = std::filesystem::weakly_canonical(path, error);
-  if (error) fail(error.value());
+  // A file that is not there yet sets `error` as well, which is no failure.
+  if (std::filesystem::is_symlink(path, error)) {
+    final_path_ = std::filesystem::weakly_canonical(path, error);
+    if (error) fail(error.value());
+  }
   const std::filesystem::file_status status = std::filesystem::status(final_path_, error);
   if (std::filesystem::is_directory(status)) fail(EISDIR);
   if (std::filesystem::exists(status) && ::access(final_path_.c_str(), W_OK) != 0) fail(errno);
