@@ -1,0 +1,76 @@
+#include "options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
+#include <charconv>
+#include <cmath>
+
+#include "grove/registry/registry.h"
+
+namespace grove::app {
+namespace {
+
+/// More threads than any machine has, few enough to start.
+constexpr std::uint64_t kMostThreads = 1024;
+
+/// The whole of `text` as a number, or nothing.
+template <typename Number>
+std::optional<Number> parse_number(const std::string& text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+void add_scene(CLI::App& verb, CommonOptions& options) {
+  verb.add_option("SCENE", options.scene, "A file (.gltf .glb .pbrt .obj .ply .ply.gz .stl) or builtin:NAME?key=value&key=value")
+      ->required()
+      ->type_name("");
+}
+
+void add_structure(CLI::App& verb, CommonOptions& options) {
+  options.structure = kDefaultSpec;
+  verb.add_option("--structure", options.structure, "Acceleration structure, family or family:key=value,...; see 'grove structures'")
+      ->type_name("SPEC")
+      ->capture_default_str();
+}
+
+void add_threads(CLI::App& verb, CommonOptions& options) {
+  in_range(verb.add_option("--threads", options.threads, "Threads to use (default: all that the machine has)")->type_name("T"),
+           std::uint64_t{1}, kMostThreads);
+}
+
+void add_json(CLI::App& verb, CommonOptions& options, const std::string& what) {
+  verb.add_option("--json", options.json, "Write " + what + " to this file as JSON")->type_name("FILE");
+}
+
+void add_quiet(CLI::App& verb, CommonOptions& options) {
+  verb.add_flag("--quiet", options.quiet, "No progress, remarks or warnings; errors only");
+}
+
+CLI::Option* in_range(CLI::Option* option, std::uint64_t minimum, std::uint64_t maximum) {
+  return option->check(CLI::Validator(
+      [=](const std::string& text) {
+        const auto number = parse_number<std::uint64_t>(text);
+        if (number && *number >= minimum && *number <= maximum) return std::string();
+        return fmt::format("'{}' is not a whole number from {} to {}", text, minimum, maximum);
+      },
+      ""));
+}
+
+CLI::Option* in_range(CLI::Option* option, double minimum, double maximum) {
+  return option->check(CLI::Validator(
+      [=](const std::string& text) {
+        const auto number = parse_number<double>(text);
+        if (number && *number >= minimum && *number <= maximum) return std::string();
+        return fmt::format("'{}' is not a number from {} to {}", text, minimum, maximum);
+      },
+      ""));
+}
+
+}  // namespace grove::app

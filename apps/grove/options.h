@@ -1,0 +1,32 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace grove::app {
+
+/// What most verbs ask for.
+struct CommonOptions {
+  std::string scene;
+  std::string structure;
+  /// Nothing: as many as the machine has.
+  std::optional<unsigned> threads;
+  std::filesystem::path json;
+  bool quiet = false;
+};
+
+void add_scene(CLI::App& verb, CommonOptions& options);
+void add_structure(CLI::App& verb, CommonOptions& options);
+void add_threads(CLI::App& verb, CommonOptions& options);
+void add_json(CLI::App& verb, CommonOptions& options, const std::string& what);
+void add_quiet(CLI::App& verb, CommonOptions& options);
+
+/// Lets an option take whole numbers from `minimum` to `maximum` only, with an error that says so.
+CLI::Option* in_range(CLI::Option* option, std::uint64_t minimum, std::uint64_t maximum);
+/// The same for numbers with a fraction.
+CLI::Option* in_range(CLI::Option* option, double minimum, double maximum);
+
+}  // namespace grove::app

@@ -1,0 +1,226 @@
+#include "grove/lab/comparison.h"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <optional>
+#include <span>
+
+#include "grove/base/error.h"
+#include "grove/base/timer.h"
+#include "grove/lab/reference.h"
+
+namespace grove {
+namespace {
+
+/// Brute force is in the default list up to this many tests a kind of rays: about a second.
+constexpr double kBruteTestLimit = 3e8;
+/// A rate is measured over at least this long, by tracing the same rays again, so that the clock's steps do not show.
+constexpr double kShortestMeasurement = 0.02;
+
+/// The rays of one kind, and the right hits.
+struct Workload {
+  RayKind kind;
+  std::vector<Ray> rays;
+  std::string error;  // why there are none
+  std::optional<Reference> reference;
+};
+
+/// What is known about one structure: a row for each workload, and the measurements that its rows will be made from.
+struct Contender {
+  std::string spec;
+  std::string error;
+  std::vector<double> build_seconds;
+  std::vector<ComparisonRow> rows;
+  std::vector<std::vector<double>> rates;  // of each workload, by round; 0 where the round gave none
+};
+
+std::string reason(const std::exception& exception) {
+  return dynamic_cast<const std::bad_alloc*>(&exception) != nullptr ? "out of memory" : exception.what();
+}
+
+/// One run of `compare`.
+class Run {
+ public:
+  Run(const Scene& scene, const ComparisonSettings& settings, const ProgressReporter& progress)
+      : scene_(scene), settings_(settings), progress_(progress) {}
+
+  Comparison run() {
+    Comparison comparison;
+    comparison.scene = scene_.name;
+    comparison.primitives = scene_.primitive_count();
+    comparison.ray_count = settings_.workload.ray_count;
+    comparison.machine = describe_machine();
+    prepare_contenders(comparison.notes);
+    // Workloads, one check and the rounds; each structure is one step.
+    step_count_ = 1 + contenders_.size() * (1 + settings_.rounds);
+    prepare_workloads();
+    step();
+    for (Contender& contender : contenders_) check(contender);
+    unsigned rounds = 0;
+    while (rounds < settings_.rounds && !progress_.stop.stop_requested()) {
+      for (Contender& contender : contenders_) time(contender);
+      ++rounds;
+    }
+    comparison.rounds = rounds;
+    for (const Workload& workload : workloads_) {
+      if (workload.reference) comparison.reference_rays = workload.reference->sampled_count();
+    }
+    collect(comparison.rows);
+    return comparison;
+  }
+
+ private:
+  void step() {
+    ++steps_done_;
+    if (progress_.report) progress_.report(steps_done_, step_count_);
+  }
+
+  void prepare_contenders(std::vector<std::string>& notes) {
+    std::vector<std::string> specs = settings_.structures;
+    if (specs.empty()) specs = default_specs(scene_.primitive_count(), settings_.workload.ray_count, notes);
+    for (const std::string& spec : specs) {
+      Contender contender;
+      contender.spec = canonical_spec(spec);
+      contender.rates.resize(settings_.rays.size());
+      for (const RayKind kind : settings_.rays) {
+        ComparisonRow row;
+        row.structure = contender.spec;
+        row.rays = kind;
+        contender.rows.push_back(row);
+      }
+      contenders_.push_back(std::move(contender));
+    }
+  }
+
+  /// Makes the rays and finds out what they hit.
+  void prepare_workloads() {
+    const Camera camera = workload_camera(scene_, settings_.camera);
+    const SceneAccelerator accelerator(scene_, kDefaultSpec);
+    const SceneAccelerator brute(scene_, "brute");
+    for (const RayKind kind : settings_.rays) {
+      Workload& workload = workloads_.emplace_back();
+      workload.kind = kind;
+      try {
+        workload.rays = make_rays(kind, scene_, accelerator, camera, settings_.workload);
+        workload.reference.emplace(brute.top(), scene_.primitive_count(), query_of(kind), workload.rays, settings_.check_budget);
+      } catch (const std::exception& exception) {
+        workload.error = reason(exception);
+      }
+      if (progress_.stop.stop_requested()) return;
+    }
+  }
+
+  /// Builds once, checks every hit and counts what each ray does. What is wrong is not timed.
+  void check(Contender& contender) {
+    if (progress_.stop.stop_requested()) return;
+    try {
+      const SceneAccelerator accelerator(scene_, contender.spec);
+      for (std::size_t i = 0; i < workloads_.size(); ++i) {
+        Workload& workload = workloads_[i];
+        ComparisonRow& row = contender.rows[i];
+        row.bytes = accelerator.statistics().bytes;
+        row.expected_cost = accelerator.statistics().expected_cost;
+        row.error = workload.error;
+        if (workload.error.empty()) check(accelerator.top(), workload, row);
+      }
+    } catch (const std::exception& exception) {
+      contender.error = reason(exception);
+    }
+    step();
+  }
+
+  static void check(const Accelerator& accelerator, Workload& workload, ComparisonRow& row) {
+    std::vector<Hit> hits(workload.rays.size());
+    const TraversalCounts counts = trace_counted(accelerator, query_of(workload.kind), workload.rays, hits);
+    const auto ray_count = static_cast<double>(hits.size());
+    row.nodes_per_ray = static_cast<double>(counts.nodes_visited) / ray_count;
+    row.tests_per_ray = static_cast<double>(counts.primitives_tested) / ray_count;
+    row.mismatches = workload.reference->count_mismatches(hits);
+    if (row.mismatches > 0) {
+      row.error = std::to_string(row.mismatches) + " of " + std::to_string(hits.size()) + " hits are not the reference's";
+    }
+  }
+
+  /// Builds once more and traces each workload, for the clock.
+  void time(Contender& contender) {
+    if (progress_.stop.stop_requested()) return;
+    if (contender.error.empty()) {
+      try {
+        const Timer timer;
+        const SceneAccelerator accelerator(scene_, contender.spec);
+        contender.build_seconds.push_back(timer.seconds());
+        for (std::size_t i = 0; i < workloads_.size(); ++i) {
+          contender.rates[i].push_back(contender.rows[i].error.empty() ? rate(accelerator.top(), workloads_[i]) : 0.0);
+        }
+      } catch (const std::exception& exception) {
+        contender.error = reason(exception);
+      }
+    }
+    step();
+  }
+
+  /// Millions of rays a second.
+  double rate(const Accelerator& accelerator, const Workload& workload) {
+    hits_.resize(workload.rays.size());
+    const Timer timer;
+    std::size_t repeats = 0;
+    do {
+      trace(accelerator, query_of(workload.kind), workload.rays, hits_);
+      ++repeats;
+    } while (timer.seconds() < kShortestMeasurement);
+    return 1e-6 * static_cast<double>(repeats * workload.rays.size()) / timer.seconds();
+  }
+
+  void collect(std::vector<ComparisonRow>& rows) const {
+    for (std::size_t i = 0; i < workloads_.size(); ++i) {
+      for (const Contender& contender : contenders_) {
+        ComparisonRow& row = rows.emplace_back(contender.rows[i]);
+        if (!contender.error.empty()) row.error = contender.error;
+        row.build_seconds = spread_of(contender.build_seconds);
+        if (!row.error.empty()) continue;
+        row.mrays_per_s = spread_of(contender.rates[i]);
+        row.ratio_to_first = spread_of(ratios(contender.rates[i], contenders_.front().rates[i]));
+      }
+    }
+  }
+
+  /// Round by round; the rounds that both have.
+  static std::vector<double> ratios(std::span<const double> rates, std::span<const double> first) {
+    std::vector<double> result;
+    for (std::size_t round = 0; round < std::min(rates.size(), first.size()); ++round) {
+      if (first[round] > 0.0) result.push_back(rates[round] / first[round]);
+    }
+    return result;
+  }
+
+  const Scene& scene_;
+  const ComparisonSettings& settings_;
+  const ProgressReporter& progress_;
+  std::vector<Contender> contenders_;
+  std::vector<Workload> workloads_;
+  std::vector<Hit> hits_;
+  std::uint64_t steps_done_ = 0;
+  std::uint64_t step_count_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> default_specs(std::uint64_t primitive_count, std::size_t ray_count, std::vector<std::string>& notes) {
+  std::vector<std::string> specs;
+  for (const std::string_view spec : representative_specs()) {
+    if (spec == "brute" && static_cast<double>(primitive_count) * static_cast<double>(ray_count) > kBruteTestLimit) {
+      notes.push_back("brute is left out: " + std::to_string(ray_count) + " rays of each kind at " + std::to_string(primitive_count) +
+                      " primitives would take long; name it among the structures to have it");
+      continue;
+    }
+    specs.emplace_back(spec);
+  }
+  return specs;
+}
+
+Comparison compare(const Scene& scene, const ComparisonSettings& settings, const ProgressReporter& progress) {
+  return Run(scene, settings, progress).run();
+}
+
+}  // namespace grove

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "grove/base/progress.h"
+#include "grove/lab/machine.h"
+#include "grove/lab/spread.h"
+#include "grove/lab/workload.h"
+
+namespace grove {
+
+struct ComparisonSettings {
+  /// Specs; the first is what the others are set against. Empty: `default_specs`.
+  std::vector<std::string> structures;
+  std::vector<RayKind> rays{ray_kinds().begin(), ray_kinds().end()};
+  WorkloadSettings workload;
+  /// How often each structure is built and traced for the clock, at least 1.
+  unsigned rounds = 5;
+  /// As RenderSettings::camera.
+  std::string camera;
+  /// Ray-primitive tests that checking by brute force may take, for each kind of rays.
+  std::uint64_t check_budget = 300'000'000;
+};
+
+/// One structure on one kind of rays.
+struct ComparisonRow {
+  std::string structure;  ///< canonical spec
+  RayKind rays = RayKind::primary;
+  /// Why the row has no times: the structure could not be built or traced, or its hits are wrong. Empty when all is well.
+  std::string error;
+  Spread mrays_per_s;
+  /// Rate over the rate of the first structure on the same rays in the same round. Zero when that has none.
+  Spread ratio_to_first;
+  double nodes_per_ray = 0.0;
+  double tests_per_ray = 0.0;
+  Spread build_seconds;
+  std::uint64_t bytes = 0;  ///< of the structure, without the geometry
+  double expected_cost = 0.0;
+  std::uint64_t mismatches = 0;  ///< rays whose hit is not the reference's, bit for bit
+};
+
+struct Comparison {
+  std::string scene;
+  std::uint64_t primitives = 0;  ///< every instance counted
+  std::size_t ray_count = 0;     ///< of each kind
+  unsigned rounds = 0;
+  /// Rays of each kind that brute force has answered; the others are checked against the first structure.
+  std::uint64_t reference_rays = 0;
+  Machine machine;
+  /// By kind of rays, then in the order of the structures.
+  std::vector<ComparisonRow> rows;
+  /// What a reader should know, such as a structure that was left out. One line each.
+  std::vector<std::string> notes;
+};
+
+/// The specs that stand for all families and heuristics; brute force only when `primitive_count` times `ray_count` tests are soon done.
+/// Adds a line to `notes` when it is left out.
+[[nodiscard]] std::vector<std::string> default_specs(std::uint64_t primitive_count, std::size_t ray_count, std::vector<std::string>& notes);
+
+/// Builds each structure over `scene` and traces each kind of rays with it. All hits are checked and all work is counted first; then
+/// building and tracing are timed, interleaved: in each round every structure in turn, so that what disturbs the machine disturbs all of
+/// them. Only one structure is in memory at a time. Runs in the caller's oneTBB arena. A structure that fails keeps its rows, with the
+/// reason. When `progress.stop` asks, returns after the step under way, with the rounds that were finished.
+/// Throws UsageError for a bad spec or camera.
+[[nodiscard]] Comparison compare(const Scene& scene, const ComparisonSettings& settings, const ProgressReporter& progress = {});
+
+}  // namespace grove

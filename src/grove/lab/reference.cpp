@@ -1,0 +1,35 @@
+#include "grove/lab/reference.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "grove/base/check.h"
+
+namespace grove {
+
+Reference::Reference(const Accelerator& brute, std::uint64_t primitive_count, Query query, std::span<const Ray> rays,
+                     std::uint64_t test_budget)
+    : hits_(rays.size()) {
+  const std::uint64_t affordable = std::max<std::uint64_t>(1, test_budget / std::max<std::uint64_t>(1, primitive_count));
+  stride_ = std::max<std::uint64_t>(1, (rays.size() + affordable - 1) / affordable);
+  std::vector<Ray> sample;
+  for (std::size_t i = 0; i < rays.size(); i += stride_) sample.push_back(rays[i]);
+  std::vector<Hit> answers(sample.size());
+  trace(brute, query, sample, answers);
+  for (std::size_t i = 0; i < answers.size(); ++i) hits_[i * stride_] = answers[i];
+  sampled_count_ = sample.size();
+}
+
+std::uint64_t Reference::count_mismatches(std::span<const Hit> hits) {
+  GROVE_CHECK(hits.size() == hits_.size());
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!is_complete_ && i % stride_ != 0) hits_[i] = hits[i];
+    // Bits, not values: +0 and -0 are different answers.
+    if (std::memcmp(&hits_[i], &hits[i], sizeof(Hit)) != 0) ++count;
+  }
+  is_complete_ = true;
+  return count;
+}
+
+}  // namespace grove

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "grove/registry/accelerator.h"
+
+namespace grove {
+
+/// A built structure as `grove inspect` writes it: structure, primitives, references, nodes, leaves, depth, bytes, build_seconds,
+/// expected_cost, threads, and the histograms leaf_sizes and leaf_depths.
+[[nodiscard]] nlohmann::ordered_json structure_json(std::string_view spec, const StructureStatistics& statistics, unsigned threads);
+
+/// The same for people: one line a figure, and the histograms as bars.
+[[nodiscard]] std::string structure_text(std::string_view spec, const StructureStatistics& statistics, unsigned threads);
+
+/// A bar for each bin from the first that is not empty to the last; many bins are drawn together in ranges. The last bin reads "n+" when
+/// `last_is_open`.
+[[nodiscard]] std::string histogram_text(std::span<const std::uint64_t> bins, bool last_is_open);
+
+}  // namespace grove

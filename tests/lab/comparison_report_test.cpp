@@ -1,0 +1,95 @@
+#include "grove/lab/comparison_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace grove {
+namespace {
+
+using ::testing::HasSubstr;
+
+Comparison two_rows() {
+  Comparison comparison;
+  comparison.scene = "a \"scene\", of sorts";
+  comparison.primitives = 1234;
+  comparison.ray_count = 1000;
+  comparison.rounds = 3;
+  comparison.reference_rays = 1000;
+  comparison.machine = {"a processor", 8, 2, "a compiler", "abc", "a system"};
+  ComparisonRow good;
+  good.structure = "bvh";
+  good.mrays_per_s = {2.0, 1.0, 3.0};
+  good.ratio_to_first = {1.0, 1.0, 1.0};
+  good.nodes_per_ray = 12.5;
+  good.tests_per_ray = 3.25;
+  good.build_seconds = {0.5, 0.25, 0.75};
+  good.bytes = 2048;
+  good.expected_cost = 40.0;
+  ComparisonRow bad;
+  bad.structure = "brute";
+  bad.error = "out of memory";
+  comparison.rows = {good, bad};
+  comparison.notes = {"something was left out"};
+  return comparison;
+}
+
+TEST(ComparisonReport, JsonHasTheAgreedKeys) {
+  const nlohmann::ordered_json json = comparison_json(two_rows());
+  EXPECT_EQ(json.at("scene"), "a \"scene\", of sorts");
+  for (const char* key : {"cpu", "cores", "threads", "compiler", "commit", "os"}) EXPECT_TRUE(json.at("machine").contains(key)) << key;
+  ASSERT_EQ(json.at("rows").size(), 2U);
+  const auto& row = json.at("rows").at(0);
+  EXPECT_EQ(row.at("structure"), "bvh");
+  EXPECT_EQ(row.at("rays"), "primary");
+  EXPECT_EQ(row.at("mrays_per_s"), (nlohmann::ordered_json{{"median", 2.0}, {"min", 1.0}, {"max", 3.0}}));
+  EXPECT_EQ(row.at("build_seconds").at("max"), 0.75);
+  EXPECT_EQ(row.at("nodes_per_ray"), 12.5);
+  EXPECT_EQ(row.at("tests_per_ray"), 3.25);
+  EXPECT_EQ(row.at("bytes"), 2048);
+  EXPECT_EQ(row.at("expected_cost"), 40.0);
+  EXPECT_EQ(row.at("mismatches"), 0);
+  EXPECT_FALSE(row.contains("error"));
+}
+
+TEST(ComparisonReport, AFailedRowSaysWhyAndHasNoFigures) {
+  const auto row = comparison_json(two_rows()).at("rows").at(1);
+  EXPECT_EQ(row.at("error"), "out of memory");
+  for (const char* key : {"mrays_per_s", "nodes_per_ray", "build_seconds", "bytes", "mismatches"})
+    EXPECT_TRUE(row.at(key).is_null()) << key;
+  EXPECT_THAT(comparison_table(two_rows()), HasSubstr("failed: brute on primary rays: out of memory"));
+}
+
+TEST(ComparisonReport, TableLinesUp) {
+  const std::string table = comparison_table(two_rows());
+  EXPECT_THAT(table, HasSubstr("2.00 (1.00–3.00)"));
+  EXPECT_THAT(table, HasSubstr("note: something was left out"));
+  EXPECT_THAT(table, ::testing::Not(HasSubstr(" \n")));
+}
+
+TEST(ComparisonReport, CsvQuotesWhatNeedsIt) {
+  const std::string csv = comparison_csv(two_rows());
+  std::istringstream lines(csv);
+  std::string heading;
+  std::string good;
+  std::string bad;
+  std::getline(lines, heading);
+  std::getline(lines, good);
+  std::getline(lines, bad);
+  EXPECT_EQ(good, "\"a \"\"scene\"\", of sorts\",primary,bvh,2,1,3,1,12.5,3.25,0.5,0.25,0.75,2048,40,0,");
+  EXPECT_EQ(bad, "\"a \"\"scene\"\", of sorts\",primary,brute,,,,,,,,,,,,,out of memory");
+  EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 15);
+}
+
+TEST(ComparisonReport, SaysWhenOnlyASampleWasChecked) {
+  Comparison comparison = two_rows();
+  EXPECT_THAT(comparison_table(comparison), ::testing::Not(HasSubstr("brute force answered")));
+  comparison.reference_rays = 10;
+  EXPECT_THAT(comparison_table(comparison), HasSubstr("brute force answered 10 of the 1,000 rays"));
+}
+
+}  // namespace
+}  // namespace grove

@@ -1,0 +1,110 @@
+#include "grove/lab/comparison.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "grove/base/error.h"
+#include "lab/small_scene.h"
+
+namespace grove {
+namespace {
+
+ComparisonSettings quick_settings() {
+  ComparisonSettings settings;
+  settings.structures = {"bvh", "brute"};
+  settings.workload.ray_count = 500;
+  settings.rounds = 2;
+  return settings;
+}
+
+void expect_ordered(const Spread& spread) {
+  EXPECT_GT(spread.min, 0.0);
+  EXPECT_LE(spread.min, spread.median);
+  EXPECT_LE(spread.median, spread.max);
+}
+
+TEST(Comparison, MeasuresEveryStructureOnEveryKindOfRays) {
+  for (const Scene& scene : {testing::small_scene(), testing::instanced_scene()}) {
+    const Comparison comparison = compare(scene, quick_settings());
+    ASSERT_EQ(comparison.rows.size(), 8U);
+    EXPECT_EQ(comparison.rounds, 2U);
+    EXPECT_EQ(comparison.reference_rays, 500U);
+    EXPECT_EQ(comparison.primitives, scene.primitive_count());
+    for (std::size_t i = 0; i < comparison.rows.size(); ++i) {
+      const ComparisonRow& row = comparison.rows[i];
+      SCOPED_TRACE(row.structure + " " + std::string(name_of(row.rays)));
+      EXPECT_EQ(row.rays, ray_kinds()[i / 2]);
+      EXPECT_EQ(row.structure, i % 2 == 0 ? "bvh" : "brute");
+      EXPECT_EQ(row.error, "");
+      EXPECT_EQ(row.mismatches, 0U);
+      EXPECT_GT(row.nodes_per_ray + row.tests_per_ray, 0.0);
+      expect_ordered(row.mrays_per_s);
+      expect_ordered(row.build_seconds);
+      expect_ordered(row.ratio_to_first);
+      if (i % 2 == 0) {
+        EXPECT_EQ(row.ratio_to_first, (Spread{1.0, 1.0, 1.0}));
+      } else {
+        EXPECT_GE(row.tests_per_ray, comparison.rows[i - 1].tests_per_ray);
+      }
+    }
+  }
+}
+
+TEST(Comparison, CountsAreTheSameEachTime) {
+  const Scene scene = testing::small_scene();
+  const Comparison first = compare(scene, quick_settings());
+  const Comparison second = compare(scene, quick_settings());
+  for (std::size_t i = 0; i < first.rows.size(); ++i) {
+    EXPECT_EQ(first.rows[i].nodes_per_ray, second.rows[i].nodes_per_ray);
+    EXPECT_EQ(first.rows[i].tests_per_ray, second.rows[i].tests_per_ray);
+    EXPECT_EQ(first.rows[i].bytes, second.rows[i].bytes);
+    EXPECT_EQ(first.rows[i].expected_cost, second.rows[i].expected_cost);
+  }
+}
+
+TEST(Comparison, ReportsEachStep) {
+  std::vector<std::uint64_t> steps;
+  std::uint64_t total = 0;
+  static_cast<void>(compare(testing::small_scene(), quick_settings(),
+                            {[&](std::uint64_t done, std::uint64_t all) {
+                               steps.push_back(done);
+                               total = all;
+                             },
+                             {}}));
+  // The rays; then for two structures, one check and two rounds.
+  EXPECT_EQ(total, 7U);
+  EXPECT_THAT(steps, ::testing::ElementsAre(1, 2, 3, 4, 5, 6, 7));
+}
+
+TEST(Comparison, StopsWhenAsked) {
+  std::stop_source stop;
+  const auto stop_after_checks = [&](std::uint64_t done, std::uint64_t) {
+    if (done == 3) stop.request_stop();
+  };
+  const Comparison comparison = compare(testing::small_scene(), quick_settings(), {stop_after_checks, stop.get_token()});
+  EXPECT_EQ(comparison.rounds, 0U);
+  EXPECT_EQ(comparison.rows.size(), 8U);
+  EXPECT_GT(comparison.rows.front().tests_per_ray, 0.0);
+}
+
+TEST(Comparison, RefusesUnknownStructuresAndCameras) {
+  const Scene scene = testing::small_scene();
+  ComparisonSettings settings = quick_settings();
+  settings.structures = {"oak"};
+  EXPECT_THROW(static_cast<void>(compare(scene, settings)), UsageError);
+  settings = quick_settings();
+  settings.camera = "none such";
+  EXPECT_THROW(static_cast<void>(compare(scene, settings)), UsageError);
+}
+
+TEST(DefaultSpecs, LeaveOutBruteForceOnlyWhereItIsSlow) {
+  std::vector<std::string> notes;
+  EXPECT_THAT(default_specs(100, 1000, notes), ::testing::Contains("brute"));
+  EXPECT_THAT(notes, ::testing::IsEmpty());
+  EXPECT_THAT(default_specs(1'000'000, 1'000'000, notes), ::testing::Not(::testing::Contains("brute")));
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_THAT(notes.front(), ::testing::HasSubstr("brute"));
+}
+
+}  // namespace
+}  // namespace grove

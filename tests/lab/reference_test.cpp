@@ -1,0 +1,63 @@
+#include "grove/lab/reference.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "grove/lab/workload.h"
+#include "lab/small_scene.h"
+
+namespace grove {
+namespace {
+
+class ReferenceTest : public ::testing::Test {
+ protected:
+  ReferenceTest() {
+    Random random(2);
+    for (Ray& ray : rays_) {
+      for (int axis = 0; axis < 3; ++axis) {
+        ray.origin[axis] = random.next_float();
+        ray.direction[axis] = random.next_float(-1.0F, 1.0F);
+      }
+    }
+    trace(brute_.top(), Query::closest, rays_, hits_);
+  }
+
+  Scene scene_ = testing::small_scene();
+  SceneAccelerator brute_{scene_, "brute"};
+  std::vector<Ray> rays_ = std::vector<Ray>(1000);
+  std::vector<Hit> hits_ = std::vector<Hit>(1000);
+};
+
+TEST_F(ReferenceTest, RightHitsHaveNoMismatches) {
+  Reference reference(brute_.top(), 212, Query::closest, rays_, 1'000'000);
+  EXPECT_EQ(reference.sampled_count(), 1000U);
+  EXPECT_EQ(reference.count_mismatches(hits_), 0U);
+}
+
+TEST_F(ReferenceTest, AnyBitCounts) {
+  Reference reference(brute_.top(), 212, Query::closest, rays_, 1'000'000);
+  hits_[1].t = std::nextafter(hits_[1].t, 0.0F);
+  hits_[500].u = -hits_[500].u;
+  hits_[998].primitive ^= 1U;
+  hits_[999].instance = 0;
+  EXPECT_EQ(reference.count_mismatches(hits_), 4U);
+}
+
+TEST_F(ReferenceTest, ASmallBudgetChecksASampleAndTheOthersAgainstTheFirst) {
+  Reference reference(brute_.top(), 212, Query::closest, rays_, 212 * 100);
+  EXPECT_EQ(reference.sampled_count(), 100U);
+  std::vector<Hit> wrong = hits_;
+  wrong[10].primitive ^= 1U;  // in the sample of every tenth ray
+  wrong[11].primitive ^= 1U;  // not in it
+  EXPECT_EQ(reference.count_mismatches(wrong), 1U);
+  EXPECT_EQ(reference.count_mismatches(hits_), 1U) << "ray 11 differs from the first structure";
+}
+
+TEST_F(ReferenceTest, ChecksAtLeastOneRay) {
+  EXPECT_EQ(Reference(brute_.top(), 212, Query::any, rays_, 0).sampled_count(), 1U);
+  EXPECT_EQ(Reference(brute_.top(), 212, Query::any, {}, 1000).sampled_count(), 0U);
+}
+
+}  // namespace
+}  // namespace grove
