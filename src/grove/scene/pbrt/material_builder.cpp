@@ -12,11 +12,23 @@
 namespace grove::pbrt {
 namespace {
 
-// Deeper mixes are a mistake, and each level is a call within a call.
-constexpr std::uint32_t kMaxMixDepth = 200;
+// A renderer may look at both sides of every mix.
+constexpr std::uint32_t kMaxMixDepth = 8;
 
 // pbrt's albedo where a file gives none.
 constexpr Vec3 kGrey{0.5F};
+
+bool has_texture(const Material& m) {
+  for (const std::uint32_t texture : {m.base_colour.texture, m.transmission_colour.texture, m.emission.texture, m.roughness.texture,
+                                      m.coat_roughness.texture, m.bump.texture, m.alpha.texture, m.mix_amount.texture, m.normal_texture}) {
+    if (texture != kNoTexture) return true;
+  }
+  return false;
+}
+
+[[noreturn]] void fail_mix(const ParameterList& p) {
+  p.place().fail("mixes of mixes are nested more than " + std::to_string(kMaxMixDepth) + " deep, or in a circle");
+}
 
 }  // namespace
 
@@ -37,9 +49,7 @@ std::uint32_t MaterialBuilder::build(std::uint32_t id) {
   for (const Parameter& p : directive.parameters.own()) {
     if (!p.used) context_.warnings.add(p.place, "the material \"" + directive.type + "\" has no parameter \"" + p.name + "\"");
   }
-  built_[id] = static_cast<std::uint32_t>(scene_.materials.size());
-  scene_.materials.push_back(std::move(material));
-  return built_[id];
+  return built_[id] = add(std::move(material));
 }
 
 // Version 3's names lead to the nearest of version 4.
@@ -144,9 +154,12 @@ void MaterialBuilder::make_mix(Material& m, const ParameterList& p) {
   m.kind = MaterialKind::mix;
   const Parameter* names = p.find("materials", ParameterType::string);
   if (names == nullptr || names->strings.size() != 2) p.place().fail("a mix takes \"string materials\" with two names");
-  if (depth_ >= kMaxMixDepth) p.place().fail("mixes of mixes are nested too deep, or in a circle");
+  if (depth_ >= kMaxMixDepth) fail_mix(p);
   ++depth_;
-  for (std::size_t i = 0; i < 2; ++i) m.mix_material[i] = build(named(names->strings[i], p.place()));
+  for (std::size_t i = 0; i < 2; ++i) {
+    m.mix_material[i] = build(named(names->strings[i], p.place()));
+    if (heights_[m.mix_material[i]] >= kMaxMixDepth) fail_mix(p);
+  }
   --depth_;
   m.mix_amount = textures_.scalar_parameter(p, "amount", 0.5F);
 }
@@ -226,9 +239,7 @@ std::uint32_t MaterialBuilder::material_of(const ShapeDirective& shape) {
   Material material = scene_.materials[base];
   if (shape.area_light != kNone) add_emission(material, description_.area_lights[shape.area_light]);
   add_alpha(material, shape);
-  entry->second = static_cast<std::uint32_t>(scene_.materials.size());
-  scene_.materials.push_back(std::move(material));
-  return entry->second;
+  return entry->second = add(std::move(material));
 }
 
 void MaterialBuilder::add_emission(Material& m, const AreaLightDirective& light) {
@@ -255,13 +266,12 @@ void MaterialBuilder::add_alpha(Material& m, const ShapeDirective& shape) {
   m.alpha = alpha;
 }
 
-bool MaterialBuilder::is_textured(std::uint32_t id) const {
-  const Material& m = scene_.materials[id];
-  for (const std::uint32_t texture : {m.base_colour.texture, m.transmission_colour.texture, m.emission.texture, m.roughness.texture,
-                                      m.coat_roughness.texture, m.bump.texture, m.alpha.texture, m.mix_amount.texture, m.normal_texture}) {
-    if (texture != kNoTexture) return true;
-  }
-  return m.kind == MaterialKind::mix && (is_textured(m.mix_material[0]) || is_textured(m.mix_material[1]));
+std::uint32_t MaterialBuilder::add(Material m) {
+  const bool is_mix = m.kind == MaterialKind::mix;
+  heights_.push_back(is_mix ? 1 + std::max(heights_[m.mix_material[0]], heights_[m.mix_material[1]]) : 0);
+  textured_.push_back(has_texture(m) || (is_mix && (textured_[m.mix_material[0]] || textured_[m.mix_material[1]])));
+  scene_.materials.push_back(std::move(m));
+  return static_cast<std::uint32_t>(scene_.materials.size() - 1);
 }
 
 }  // namespace grove::pbrt

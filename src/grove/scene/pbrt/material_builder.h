@@ -20,10 +20,11 @@ class MaterialBuilder {
   /// The material of a shape: index into Scene::materials.
   std::uint32_t material_of(const ShapeDirective& shape);
   /// Whether it, or one that it mixes, looks at texture coordinates.
-  [[nodiscard]] bool is_textured(std::uint32_t material) const;
+  [[nodiscard]] bool is_textured(std::uint32_t material) const { return textured_[material]; }
 
  private:
   std::uint32_t build(std::uint32_t directive);
+  std::uint32_t add(Material m);
   Material make(const MaterialDirective& directive);
   void make_diffuse(Material& m, const ParameterList& p);
   void make_coated_diffuse(Material& m, const ParameterList& p);
@@ -48,7 +49,10 @@ class MaterialBuilder {
   Scene& scene_;
   Context& context_;
   std::vector<std::uint32_t> built_;  // per directive
-  std::uint32_t depth_ = 0;           // of mixes within mixes
+  std::uint32_t depth_ = 0;           // of mixes within mixes that are being built
+  // Per material of the scene: levels of mixes, and whether it looks at texture coordinates.
+  std::vector<std::uint32_t> heights_;
+  std::vector<bool> textured_;
   // (base material, area light, alpha texture, alpha value): variants of a material for shapes that emit or are cut out.
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::string, float>, std::uint32_t> variants_;
 };

@@ -14,7 +14,7 @@ constexpr std::size_t kMaxDepth = 64;
 // Text that is read a second time or more; without a limit, 30 small files that each include the next one twice would never end.
 constexpr std::uint64_t kMaxRepeatedBytes = 256U << 20;
 // An included file that is empty has no bytes to count, but costs time.
-constexpr std::uint64_t kCostOfOpening = 1024;
+constexpr std::uint64_t kCostOfOpening = 8192;
 
 std::string canonical_name(const std::filesystem::path& file) {
   std::error_code error;

@@ -34,6 +34,7 @@ TextureBuilder::TextureBuilder(const Description& description, Scene& scene, Con
     for (const Parameter& p : directive.parameters.own()) {
       if (!p.used) context_.warnings.add(p.place, "the texture \"" + directive.type + "\" has no parameter \"" + p.name + "\"");
     }
+    limit_cost(texture, directive.parameters.place());
     auto& names = directive.is_spectrum ? colours_ : numbers_;
     names[directive.name] = static_cast<std::uint32_t>(scene_.textures.size());
     scene_.textures.push_back(std::move(texture));
@@ -152,6 +153,22 @@ Texture TextureBuilder::make(const TextureDirective& directive) {
   return texture;
 }
 
+// Textures of textures are evaluated like a tree: a chain in which each names the one before twice would take for ever.
+void TextureBuilder::limit_cost(Texture& texture, const Place& place) {
+  constexpr std::uint32_t kMaxCost = 1024;
+  costs_.resize(scene_.textures.size(), 1);
+  std::uint32_t cost = 1;
+  for (const std::uint32_t operand : {texture.operand[0], texture.operand[1], texture.amount_texture}) {
+    if (operand != kNoTexture) cost += costs_[operand];
+  }
+  if (cost > kMaxCost) {
+    context_.warnings.add(place, "a texture made of more than 1024 others is left out; grey stands in for it");
+    texture = constant_texture(Vec4(Vec3(kMiddle), 1.0F));
+    cost = 1;
+  }
+  costs_.push_back(cost);
+}
+
 // Kinds that we do not have: the middle of what they show.
 Texture TextureBuilder::make_stand_in(const TextureDirective& directive) {
   context_.warnings.add(directive.parameters.place(),
@@ -215,6 +232,10 @@ Texture TextureBuilder::make_image(const TextureDirective& directive) {
   texture.kind = TextureKind::image;
   texture.value[0] = Vec4(Vec3(p.number("scale", 1.0F)), 1.0F);
   texture.invert = p.flag("invert", false);
+  if (texture.invert && texture.value[0].x != 1.0F) {
+    context_.warnings.add(p.place(), "\"scale\" of a texture with \"invert\" is left out");
+    texture.value[0] = Vec4(1.0F);
+  }
   texture.filter = p.text("filter", "bilinear") == "point" ? TextureFilter::nearest : TextureFilter::linear;
   set_mapping(texture, directive, true);
   const std::string wrap = p.text("wrap", "repeat");
@@ -242,11 +263,10 @@ Texture TextureBuilder::make_image(const TextureDirective& directive) {
 }
 
 std::uint32_t TextureBuilder::raised_image(const Texture& texture, float exponent) {
-  const float factor = texture.value[0].x;
   const Image& source = *scene_.images[texture.image];
   auto raised = std::make_shared<Image>(map_first_channel(source, texture.srgb, [&](float value) {
-    // A factor moves out of the power; under an inversion it cannot.
-    return std::pow(std::max(0.0F, texture.invert ? 1.0F - factor * value : value), exponent);
+    // The factor on the image moves out of the power.
+    return std::pow(std::max(0.0F, texture.invert ? 1.0F - value : value), exponent);
   }));
   scene_.images.push_back(std::move(raised));
   return static_cast<std::uint32_t>(scene_.images.size() - 1);
@@ -269,7 +289,6 @@ std::uint32_t TextureBuilder::raised_to_power(std::uint32_t id, float exponent) 
     if (texture.kind == TextureKind::image) {
       texture.image = raised_image(texture, exponent);
       texture.srgb = false;
-      if (texture.invert) texture.value[0] = Vec4(1.0F);
       texture.invert = false;
     }
     for (int operand = 0; operand < 2; ++operand) {

@@ -58,6 +58,8 @@ class TextureBuilder {
   void set_operand(Texture& texture, int i, const TextureDirective& directive, std::string_view name, float otherwise, bool is_spectrum);
   void set_amount(Texture& texture, const TextureDirective& directive, std::string_view name);
   void set_mapping(Texture& texture, const TextureDirective& directive, bool v_down);
+  /// Replaces a texture that stands for too many evaluations.
+  void limit_cost(Texture& texture, const Place& place);
   std::uint32_t raised_image(const Texture& texture, float exponent);
 
   const Description& description_;
@@ -68,6 +70,7 @@ class TextureBuilder {
   std::map<std::string, std::uint32_t, std::less<>> numbers_;
   std::map<std::string, std::uint32_t, std::less<>> colours_;
   std::map<std::pair<std::uint32_t, float>, std::uint32_t> raised_;
+  std::vector<std::uint32_t> costs_;  // evaluations that each Scene texture stands for
 };
 
 }  // namespace grove::pbrt
