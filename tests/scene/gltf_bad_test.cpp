@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -326,10 +325,8 @@ std::string damaged(std::string bytes, Random& random) {
 }
 
 // Whatever the damage: a scene or one clear InputError. Under the address sanitiser this finds reads outside the buffers.
-// GROVE_FUZZ_VARIANTS in the environment makes it longer.
 TEST_F(SharedBadGltf, DamagedFilesGiveASceneOrAnError) {
-  const char* wish = std::getenv("GROVE_FUZZ_VARIANTS");
-  const int variants = wish == nullptr ? 300 : std::atoi(wish);
+  const int variants = fuzz_variants(300);
   std::ifstream stream(folder_ / "animated" / "Fox.glb", std::ios::binary);
   const std::string whole((std::istreambuf_iterator<char>(stream)), {});
   ASSERT_FALSE(whole.empty());

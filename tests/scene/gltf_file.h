@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -98,6 +98,12 @@ struct GltfFile {
     return folder / "scene.gltf";
   }
 };
+
+/// How many damaged files a test tries: GROVE_FUZZ_VARIANTS in the environment makes it longer than the usual.
+inline int fuzz_variants(int usual) {
+  const char* wish = std::getenv("GROVE_FUZZ_VARIANTS");
+  return wish == nullptr ? usual : std::atoi(wish);
+}
 
 /// A PNG of 2 x 2 pixels, RGB: red and green above, blue and white below; one stored deflate block.
 inline std::vector<std::uint8_t> small_png() {

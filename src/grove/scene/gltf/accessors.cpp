@@ -195,6 +195,8 @@ void GltfAccessors::replace_sparse(const Layout& layout, const ElementSelection&
   const std::size_t element = size_of(layout.type) * layout.components;
   const std::span<const std::byte> ids = range(sparse["indices"], size_of(id_type));
   const std::span<const std::byte> replacements = range(sparse["values"], element);
+  // No memory grows here, but time does when many primitives share the accessor.
+  document_.charge(count * sizeof(std::uint32_t), sparse);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t id = load_integer(ids.data() + i * size_of(id_type), id_type);
     if (id >= layout.count) sparse["indices"].fail("names element " + std::to_string(id) + " of " + std::to_string(layout.count));

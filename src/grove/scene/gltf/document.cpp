@@ -52,13 +52,33 @@ std::string plain_message(const nlohmann::json::exception& error) {
   return message.substr(end == std::string::npos ? 0 : end + 2, kLongest);
 }
 
+// Brackets of JSON text, outside strings. The parser's own callback could count them too, but takes quadratic time.
+int nesting_depth(std::string_view text) {
+  int depth = 0;
+  int deepest = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      deepest = std::max(deepest, ++depth);
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return deepest;
+}
+
 nlohmann::json parse_json(std::string_view text, const std::string& file) {
-  const auto check_depth = [&](int depth, nlohmann::json::parse_event_t /*event*/, const nlohmann::json& /*value*/) {
-    if (depth > kDeepestJson) throw InputError(file, "", "JSON nested deeper than " + std::to_string(kDeepestJson) + " levels");
-    return true;
-  };
+  if (nesting_depth(text) > kDeepestJson) {
+    throw InputError(file, "", "JSON nested deeper than " + std::to_string(kDeepestJson) + " levels");
+  }
   try {
-    return nlohmann::json::parse(text, check_depth);
+    return nlohmann::json::parse(text);
   } catch (const nlohmann::json::exception& error) {
     throw InputError(file, "", "not a glTF file that can be read: " + plain_message(error));
   }

@@ -95,6 +95,8 @@ class MeshReader {
     const JsonCursor primitives = mesh["primitives"];
     for (std::size_t i = 0; i < primitives.size(); ++i) {
       const JsonCursor primitive = primitives.element(i);
+      // A part's own size, so that nodes cannot repeat long lists of empty primitives for nothing.
+      document_.charge(sizeof(Part), primitive);
       GltfSurface surface = read_surface(document_, scene_, primitive, weights, skin);
       if (surface.triangles.empty()) continue;
       take(surface);

@@ -15,6 +15,7 @@ GltfSkin read_skin(GltfDocument& document, const GltfNodes& nodes, std::uint32_t
   if (inverse_bind.exists() && bind.size() < joints.size()) {
     inverse_bind.fail("has " + std::to_string(bind.size()) + " matrices for " + std::to_string(joints.size()) + " joints");
   }
+  document.charge(joints.size() * sizeof(Mat4), joints);
   GltfSkin result;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const std::uint32_t node = joints.element(i).required_index(nodes.to_world.size(), "nodes");
