@@ -39,7 +39,8 @@ class UserGeometry {
   template <typename Counter>
   bool occluded(std::size_t i, const PreparedRay& ray, Counter& /*counter*/) const {
     Hit hit;
-    return intersect_primitive(i, ray, hit);
+    hit.t = ray.t_max;
+    return intersect_closer(i, ray, hit);
   }
   void locate(Hit& hit) const { hit.geometry = hit ? 0 : kInvalidId; }
 
