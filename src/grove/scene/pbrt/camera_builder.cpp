@@ -38,7 +38,7 @@ void build_perspective(const CameraDirective& directive, Scene& scene, Context& 
     context.warnings.add(p.place(), "the camera's transform is singular, projective or not finite; the camera is left out");
     return;
   }
-  Matrix camera_to_world = glm::inverse(directive.world_to_camera) * scaling({1.0, 1.0, -1.0});
+  Matrix camera_to_world = affine_inverse(directive.world_to_camera) * scaling({1.0, 1.0, -1.0});
   const double size = std::cbrt(std::abs(glm::determinant(glm::dmat3(camera_to_world))));
   for (int column = 0; column < 3; ++column) camera_to_world[column] /= size;
   if (!is_usable(camera_to_world)) {

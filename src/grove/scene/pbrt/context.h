@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -33,6 +34,8 @@ class Warnings {
 struct Context {
   std::filesystem::path directory;
   Warnings& warnings;
+  /// Steps around a tessellated quadric; half as many from pole to pole.
+  std::uint32_t quadric_steps = 64;
 };
 
 }  // namespace grove::pbrt

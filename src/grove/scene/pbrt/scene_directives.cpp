@@ -77,7 +77,7 @@ void DirectiveReader::camera() {
   camera.type = quoted_argument("the kind of camera");
   camera.parameters = plain_parameters();
   camera.world_to_camera = state_.transform;
-  if (is_usable(state_.transform)) coordinate_systems_["camera"] = glm::inverse(state_.transform);
+  if (is_usable(state_.transform)) coordinate_systems_["camera"] = affine_inverse(state_.transform);
   description_.camera = std::move(camera);
 }
 

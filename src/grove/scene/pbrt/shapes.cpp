@@ -9,9 +9,9 @@ std::optional<ShapeMesh> make_mesh(const ShapeDirective& shape, Context& context
   if (shape.type == "plymesh") return make_ply_mesh(parameters, context);
   if (shape.type == "bilinearmesh") return make_bilinear_mesh(parameters, context);
   if (shape.type == "loopsubdiv") return make_control_mesh(parameters, context);
-  if (shape.type == "sphere") return make_sphere(parameters);
-  if (shape.type == "disk") return make_disk(parameters);
-  if (shape.type == "cylinder") return make_cylinder(parameters);
+  if (shape.type == "sphere") return make_sphere(parameters, context);
+  if (shape.type == "disk") return make_disk(parameters, context);
+  if (shape.type == "cylinder") return make_cylinder(parameters, context);
   if (shape.type == "curve") return make_curve(parameters, context);
   return std::nullopt;
 }

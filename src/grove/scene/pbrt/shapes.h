@@ -24,9 +24,9 @@ struct ShapeGeometry {
 [[nodiscard]] ShapeMesh make_ply_mesh(const ParameterList& parameters, Context& context);
 [[nodiscard]] ShapeMesh make_control_mesh(const ParameterList& parameters, Context& context);
 [[nodiscard]] ShapeMesh make_bilinear_mesh(const ParameterList& parameters, Context& context);
-[[nodiscard]] ShapeMesh make_sphere(const ParameterList& parameters);
-[[nodiscard]] ShapeMesh make_disk(const ParameterList& parameters);
-[[nodiscard]] ShapeMesh make_cylinder(const ParameterList& parameters);
+[[nodiscard]] ShapeMesh make_sphere(const ParameterList& parameters, const Context& context);
+[[nodiscard]] ShapeMesh make_disk(const ParameterList& parameters, const Context& context);
+[[nodiscard]] ShapeMesh make_cylinder(const ParameterList& parameters, const Context& context);
 /// The sphere itself when it is a whole one and `to_target` keeps it round.
 [[nodiscard]] std::optional<SphereSet::Sphere> analytic_sphere(const ParameterList& parameters, const Matrix& to_target);
 [[nodiscard]] ShapeMesh make_curve(const ParameterList& parameters, Context& context);

@@ -45,7 +45,14 @@ Matrix look_at_matrix(const glm::dvec3& eye, const glm::dvec3& target, const glm
   camera_to_world[1] = glm::dvec4(true_up, 0.0);
   camera_to_world[2] = glm::dvec4(forward, 0.0);
   camera_to_world[3] = glm::dvec4(eye, 1.0);
-  return glm::inverse(camera_to_world);
+  return affine_inverse(camera_to_world);
+}
+
+Matrix affine_inverse(const Matrix& m) {
+  const glm::dmat3 linear = glm::inverse(glm::dmat3(m));
+  Matrix inverse(linear);
+  inverse[3] = glm::dvec4(-(linear * glm::dvec3(m[3])), 1.0);
+  return inverse;
 }
 
 bool is_finite(const Matrix& m) {

@@ -17,6 +17,9 @@ using Matrix = glm::dmat4;
 /// World to camera as pbrt's LookAt has it: +x right, +y up, +z into the picture, so left-handed. NaN when the view has no direction.
 [[nodiscard]] Matrix look_at_matrix(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up);
 
+/// The inverse of an affine map, whose last row stays exactly 0 0 0 1. Not finite when the map cannot be inverted.
+[[nodiscard]] Matrix affine_inverse(const Matrix& m);
+
 /// True when every entry is finite, and fits a float.
 [[nodiscard]] bool is_finite(const Matrix& m);
 /// True when the map turns a left hand into a right hand.
