@@ -32,6 +32,15 @@ struct BsdfSample {
   [[nodiscard]] explicit operator bool() const { return pdf > 0.0F; }
 };
 
+/// The chance of choosing the first of two lobes that return this much light. Where the second is lit by light sampling anyway, a faint
+/// first one with a chance of only its share would show as rare bright dots, so that it gets a quarter at least.
+[[nodiscard]] inline float lobe_chance(float first, float second) {
+  if (!(second > 0.0F)) return 1.0F;
+  if (!(first > 0.0F)) return 0.0F;
+  const float share = first / (first + second);
+  return share < 0.25F ? 0.25F : share;
+}
+
 /// Below this width a GGX surface is treated as perfectly smooth: its lobe is narrower than what floats and samplers resolve.
 inline constexpr float kSmoothAlpha = 1.001e-3F;
 

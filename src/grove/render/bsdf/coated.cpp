@@ -23,8 +23,7 @@ Vec3 CoatedDiffuseBsdf::base_albedo() const {
 
 float CoatedDiffuseBsdf::coat_chance(const Vec3& wo) const {
   const float mirror = coat.reflectance(wo.z);
-  const float diffuse = (1.0F - mirror) * max_component(base_albedo());
-  return mirror + diffuse > 0.0F ? mirror / (mirror + diffuse) : 1.0F;
+  return lobe_chance(mirror, (1.0F - mirror) * max_component(base_albedo()));
 }
 
 BsdfValue CoatedDiffuseBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
@@ -63,8 +62,7 @@ Vec3 CoatedConductorBsdf::base_reflectance(float facet_cosine, float cosine_o, f
 
 float CoatedConductorBsdf::coat_chance(const Vec3& wo) const {
   const float mirror = coat.reflectance(wo.z);
-  const float metal = max_component(base_reflectance(wo.z, wo.z, wo.z));
-  return mirror + metal > 0.0F ? mirror / (mirror + metal) : 1.0F;
+  return lobe_chance(mirror, max_component(base_reflectance(wo.z, wo.z, wo.z)));
 }
 
 BsdfValue CoatedConductorBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {

@@ -25,12 +25,9 @@ Vec3 MetallicRoughnessBsdf::diffuse(float cosine_o, float cosine_i) const {
 }
 
 float MetallicRoughnessBsdf::mirror_chance(const Vec3& wo) const {
-  const Vec3 normal_reflectance = f0();
-  const Vec3 mirror = fresnel_schlick(wo.z, normal_reflectance);
-  const float diffuse_part = (1.0F - metallic) * max_component(base_colour) * (1.0F - dielectric_albedo(wo.z));
-  const float mirror_part =
-      alpha < kSmoothAlpha ? max_component(mirror) : max_component(normal_reflectance) + 0.5F * dielectric_albedo(wo.z);
-  return mirror_part + diffuse_part > 0.0F ? mirror_part / (mirror_part + diffuse_part) : 1.0F;
+  // The mirror lobe's albedo as though it were smooth: near enough for a choice.
+  const float mirror = max_component(fresnel_schlick(wo.z, f0()));
+  return lobe_chance(mirror, (1.0F - metallic) * max_component(base_colour) * (1.0F - dielectric_albedo(wo.z)));
 }
 
 BsdfValue MetallicRoughnessBsdf::evaluate(const Vec3& wo, const Vec3& wi) const {
