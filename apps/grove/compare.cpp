@@ -65,7 +65,7 @@ int run(CompareOptions& options, Interrupts& interrupts) {
 
   Comparison comparison;
   {
-    ProgressBar bar("comparing", "steps", 1.0, options.quiet);
+    ProgressBar bar("comparing", "rays", 1.0, options.quiet);
     comparison = compare(scene, options.settings, bar.reporter(interrupts.token()));
   }
   // What is being written is finished first; a second signal ends it.

@@ -118,8 +118,7 @@ Verb add_render(CLI::App& program) {
   verb.add_option("-o,--output", options->images, "Image to write, .exr (linear, with albedo and normal layers) or .png; may be repeated")
       ->required()
       ->type_name("IMAGE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->allow_extra_args(false);
   add_structure(verb, *options);
   in_range(verb.add_option("--spp", settings.samples_per_pixel, "Samples per pixel")->type_name("N")->capture_default_str(),
            std::uint64_t{1}, kMostSamples);

@@ -71,15 +71,16 @@ TEST(Comparison, ReportsEachStep) {
                                total = all;
                              },
                              {}}));
-  // The rays; then for two structures, one check and two rounds.
-  EXPECT_EQ(total, 7U);
-  EXPECT_THAT(steps, ::testing::ElementsAre(1, 2, 3, 4, 5, 6, 7));
+  // Four kinds of 500 rays: once for the reference; then, for two structures, in one check and two rounds.
+  EXPECT_EQ(total, 4U * 500U * 7U);
+  ASSERT_EQ(steps.size(), 28U);
+  for (std::size_t i = 0; i < steps.size(); ++i) EXPECT_EQ(steps[i], 500U * (i + 1));
 }
 
 TEST(Comparison, StopsWhenAsked) {
   std::stop_source stop;
   const auto stop_after_checks = [&](std::uint64_t done, std::uint64_t) {
-    if (done == 3) stop.request_stop();
+    if (done == 4U * 500U * 3U) stop.request_stop();
   };
   const Comparison comparison = compare(testing::small_scene(), quick_settings(), {stop_after_checks, stop.get_token()});
   EXPECT_EQ(comparison.rounds, 0U);

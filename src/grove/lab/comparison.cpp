@@ -13,8 +13,8 @@
 namespace grove {
 namespace {
 
-/// Brute force is in the default list up to this many tests a kind of rays: about a second.
-constexpr double kBruteTestLimit = 3e8;
+/// Brute force is in the default list up to this many tests a kind of rays: about half a second on one thread.
+constexpr double kBruteTestLimit = 5e7;
 /// A rate is measured over at least this long, by tracing the same rays again, so that the clock's steps do not show.
 constexpr double kShortestMeasurement = 0.02;
 
@@ -52,15 +52,14 @@ class Run {
     comparison.ray_count = settings_.workload.ray_count;
     comparison.machine = describe_machine();
     prepare_contenders(comparison.notes);
-    // Workloads, one check and the rounds; each structure is one step.
-    step_count_ = 1 + contenders_.size() * (1 + settings_.rounds);
+    // Each kind of rays is traced once for the reference, then by each structure to be checked and in each round.
+    rays_to_trace_ = settings_.rays.size() * settings_.workload.ray_count * (1 + contenders_.size() * (1 + settings_.rounds));
     prepare_workloads();
-    step();
     for (Contender& contender : contenders_) check(contender);
     unsigned rounds = 0;
     while (rounds < settings_.rounds && !progress_.stop.stop_requested()) {
       for (Contender& contender : contenders_) time(contender);
-      ++rounds;
+      if (!progress_.stop.stop_requested()) ++rounds;
     }
     comparison.rounds = rounds;
     for (const Workload& workload : workloads_) {
@@ -71,9 +70,10 @@ class Run {
   }
 
  private:
+  /// One kind of rays was traced by one structure, or turned out to be impossible.
   void step() {
-    ++steps_done_;
-    if (progress_.report) progress_.report(steps_done_, step_count_);
+    rays_traced_ += settings_.workload.ray_count;
+    if (progress_.report) progress_.report(rays_traced_, rays_to_trace_);
   }
 
   void prepare_contenders(std::vector<std::string>& notes) {
@@ -107,6 +107,7 @@ class Run {
       } catch (const std::exception& exception) {
         workload.error = reason(exception);
       }
+      step();
       if (progress_.stop.stop_requested()) return;
     }
   }
@@ -123,11 +124,11 @@ class Run {
         row.expected_cost = accelerator.statistics().expected_cost;
         row.error = workload.error;
         if (workload.error.empty()) check(accelerator.top(), workload, row);
+        step();
       }
     } catch (const std::exception& exception) {
       contender.error = reason(exception);
     }
-    step();
   }
 
   static void check(const Accelerator& accelerator, Workload& workload, ComparisonRow& row) {
@@ -152,12 +153,12 @@ class Run {
         contender.build_seconds.push_back(timer.seconds());
         for (std::size_t i = 0; i < workloads_.size(); ++i) {
           contender.rates[i].push_back(contender.rows[i].error.empty() ? rate(accelerator.top(), workloads_[i]) : 0.0);
+          step();
         }
       } catch (const std::exception& exception) {
         contender.error = reason(exception);
       }
     }
-    step();
   }
 
   /// Millions of rays a second.
@@ -200,8 +201,8 @@ class Run {
   std::vector<Contender> contenders_;
   std::vector<Workload> workloads_;
   std::vector<Hit> hits_;
-  std::uint64_t steps_done_ = 0;
-  std::uint64_t step_count_ = 0;
+  std::uint64_t rays_traced_ = 0;
+  std::uint64_t rays_to_trace_ = 0;
 };
 
 }  // namespace

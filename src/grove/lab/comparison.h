@@ -21,7 +21,7 @@ struct ComparisonSettings {
   /// As RenderSettings::camera.
   std::string camera;
   /// Ray-primitive tests that checking by brute force may take, for each kind of rays.
-  std::uint64_t check_budget = 300'000'000;
+  std::uint64_t check_budget = 50'000'000;
 };
 
 /// One structure on one kind of rays.
@@ -62,7 +62,7 @@ struct Comparison {
 /// Builds each structure over `scene` and traces each kind of rays with it. All hits are checked and all work is counted first; then
 /// building and tracing are timed, interleaved: in each round every structure in turn, so that what disturbs the machine disturbs all of
 /// them. Only one structure is in memory at a time. Runs in the caller's oneTBB arena. A structure that fails keeps its rows, with the
-/// reason. When `progress.stop` asks, returns after the step under way, with the rounds that were finished.
+/// reason. Progress counts rays. When `progress.stop` asks, returns after the step under way, with the rounds that were finished.
 /// Throws UsageError for a bad spec or camera.
 [[nodiscard]] Comparison compare(const Scene& scene, const ComparisonSettings& settings, const ProgressReporter& progress = {});
 

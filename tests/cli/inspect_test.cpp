@@ -1,0 +1,68 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_command.h"
+
+namespace grove::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(Inspect, ShowsFiguresAndHistograms) {
+  const TemporaryDirectory directory;
+  const CommandResult result =
+      run_command(directory, {"inspect", "builtin:cornell", "--json", "i.json", "--obj", "boxes.obj", "--threads", "2"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("leaves by number of references"));
+  EXPECT_THAT(result.out, HasSubstr("###"));
+  EXPECT_EQ(directory.entry_count(), 2U) << "a temporary file is left";
+
+  const auto json = nlohmann::json::parse(read_file(directory / "i.json"));
+  EXPECT_EQ(json.at("structure"), "bvh");
+  EXPECT_EQ(json.at("threads"), 2);
+  EXPECT_GT(json.at("primitives"), 0);
+  EXPECT_EQ(json.at("references"), json.at("primitives"));
+  EXPECT_EQ(json.at("nodes"), 2 * json.at("leaves").get<int>() - 1);
+  EXPECT_GT(json.at("depth"), 0);
+  EXPECT_GT(json.at("bytes"), 0);
+  EXPECT_GT(json.at("build_seconds"), 0.0);
+  EXPECT_GT(json.at("expected_cost"), 0.0);
+
+  const std::string boxes = read_file(directory / "boxes.obj");
+  EXPECT_THAT(boxes, HasSubstr("\nv "));
+  EXPECT_THAT(boxes, HasSubstr("\nl "));
+}
+
+TEST(Inspect, TheTreeDoesNotDependOnTheThreads) {
+  const TemporaryDirectory directory;
+  for (const char* threads : {"1", "4"}) {
+    EXPECT_EQ(run_command(directory, {"inspect", "builtin:rings", "--threads", threads, "--obj", std::string(threads) + ".obj"}).exit_code,
+              0);
+  }
+  EXPECT_TRUE(read_file(directory / "1.obj") == read_file(directory / "4.obj"));
+}
+
+TEST(Inspect, BoxesCanBeLimitedToLevels) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(run_command(directory, {"inspect", "builtin:cornell", "--obj", "root.obj", "--depth", "0"}).exit_code, 0);
+  const std::string boxes = read_file(directory / "root.obj");
+  EXPECT_EQ(std::count(boxes.begin(), boxes.end(), 'v'), 8 + std::count(boxes.begin(), boxes.begin() + boxes.find('\n'), 'v'));
+}
+
+TEST(Inspect, UnwritableOutputsFailBeforeTheWork) {
+  const TemporaryDirectory directory;
+  CommandSettings settings;
+  settings.time_limit = 5.0;
+  for (const char* option : {"--json", "--obj"}) {
+    const CommandResult result = run_command(directory, {"inspect", "builtin:soup?triangles=20000000", option, "/nowhere/file"}, settings);
+    expect_failure(result, 1);
+    EXPECT_THAT(result.err, HasSubstr("/nowhere/file"));
+  }
+}
+
+}  // namespace
+}  // namespace grove::testing

@@ -1,0 +1,148 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_command.h"
+#include "grove/scene/read_image.h"
+
+namespace grove::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::vector<std::string> kSmall{"render", "builtin:cornell", "--width", "24", "--height", "16", "--spp", "2"};
+
+std::vector<std::string> small_with(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = kSmall;
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(Render, WritesBothKindsOfImageAndTheFigures) {
+  const TemporaryDirectory directory;
+  const CommandResult result = run_command(directory, small_with({"-o", "a.png", "-o", "a.EXR", "--json", "a.json"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, HasSubstr("Mrays/s"));
+  EXPECT_EQ(directory.entry_count(), 3U) << "a temporary file is left";
+  EXPECT_TRUE(read_file(directory / "a.png").starts_with("\x89PNG"));
+  EXPECT_TRUE(read_file(directory / "a.EXR").starts_with("v/1\x01"));
+  const auto json = nlohmann::json::parse(read_file(directory / "a.json"));
+  EXPECT_EQ(json.at("width"), 24);
+  EXPECT_EQ(json.at("height"), 16);
+  EXPECT_EQ(json.at("samples_per_pixel"), 2);
+  EXPECT_EQ(json.at("structure"), "bvh");
+  EXPECT_GT(json.at("rays"), 24 * 16 * 2);
+  EXPECT_EQ(json.at("interrupted"), false);
+}
+
+TEST(Render, OneSideKeepsTheAspect) {
+  const TemporaryDirectory directory;
+  const auto size_of = [&](const std::vector<std::string>& size) {
+    std::vector<std::string> arguments{"render", "builtin:sphereflake", "--spp", "1", "--integrator", "normal", "-o", "a.png", "--json",
+                                       "a.json"};
+    arguments.insert(arguments.end(), size.begin(), size.end());
+    EXPECT_EQ(run_command(directory, arguments).exit_code, 0);
+    const auto json = nlohmann::json::parse(read_file(directory / "a.json"));
+    return std::pair<double, double>(json.at("width"), json.at("height"));
+  };
+  const auto [width, height] = size_of({"--width", "64"});
+  EXPECT_EQ(width, 64);
+  EXPECT_EQ(size_of({"--height", std::to_string(static_cast<int>(height))}).first, 64);
+}
+
+TEST(Render, QuietSaysNothing) {
+  const TemporaryDirectory directory;
+  const CommandResult result = run_command(directory, small_with({"-o", "a.png", "--quiet"}));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err, "");
+}
+
+TEST(Render, ThreadsAndStructureDoNotChangeTheImage) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(run_command(directory, small_with({"-o", "a.exr", "--threads", "1"})).exit_code, 0);
+  EXPECT_EQ(run_command(directory, small_with({"-o", "b.exr", "--threads", "3"})).exit_code, 0);
+  EXPECT_EQ(run_command(directory, small_with({"-o", "c.exr", "--structure", "brute"})).exit_code, 0);
+  EXPECT_EQ(run_command(directory, small_with({"-o", "d.exr", "--seed", "7"})).exit_code, 0);
+  const std::string image = read_file(directory / "a.exr");
+  EXPECT_FALSE(image.empty());
+  EXPECT_TRUE(image == read_file(directory / "b.exr")) << "threads change the image";
+  EXPECT_TRUE(image == read_file(directory / "c.exr")) << "the structure changes the image";
+  EXPECT_FALSE(image == read_file(directory / "d.exr")) << "the seed does not change the image";
+}
+
+TEST(Render, HasEachIntegrator) {
+  const TemporaryDirectory directory;
+  for (const char* integrator : {"path", "ao", "normal", "depth", "cost"}) {
+    const CommandResult result = run_command(directory, small_with({"-o", "a.png", "--integrator", integrator}));
+    EXPECT_EQ(result.exit_code, 0) << integrator << ": " << result.err;
+  }
+}
+
+class InterruptedRender : public ::testing::TestWithParam<int> {};
+
+TEST_P(InterruptedRender, WritesWhatIsFinished) {
+  const TemporaryDirectory directory;
+  CommandSettings settings;
+  settings.signal = GetParam();
+  settings.signal_when = "structure";
+  const CommandResult result = run_command(
+      directory, {"render", "builtin:cornell", "--width", "512", "--height", "512", "--spp", "100000", "-o", "a.png", "-o", "a.exr"},
+      settings);
+  expect_failure(result, 130);
+  EXPECT_THAT(result.err, HasSubstr("wrote what was finished"));
+  const Image image = read_image(directory / "a.png");
+  EXPECT_EQ(image.width, 512U);
+  EXPECT_EQ(image.height, 512U);
+  EXPECT_EQ(read_image(directory / "a.exr").width, 512U);
+  EXPECT_EQ(directory.entry_count(), 2U) << "a temporary file is left";
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, InterruptedRender, ::testing::Values(SIGINT, SIGTERM));
+
+TEST(Render, UnwritableOutputFailsBeforeTheWork) {
+  const TemporaryDirectory directory;
+  for (const std::string path : {"/nowhere/at/all/a.png", "directory.png"}) {
+    std::filesystem::create_directory(directory / "directory.png");
+    // A scene that would take long to read, and far too many samples.
+    CommandSettings settings;
+    settings.time_limit = 5.0;
+    const CommandResult result =
+        run_command(directory, {"render", "builtin:soup?triangles=20000000", "--spp", "100000", "-o", path}, settings);
+    expect_failure(result, 1);
+    EXPECT_THAT(result.err, HasSubstr(path));
+    EXPECT_EQ(result.out, "");
+  }
+}
+
+TEST(Render, MissingSceneFails) {
+  const TemporaryDirectory directory;
+  expect_failure(run_command(directory, {"render", "missing.glb", "-o", "a.png"}), 1);
+  EXPECT_EQ(directory.entry_count(), 0U);
+}
+
+TEST(Render, UnknownSceneFormatFails) {
+  const TemporaryDirectory directory;
+  write_file(directory / "scene.txt", "words");
+  expect_failure(run_command(directory, {"render", "scene.txt", "-o", "a.png"}), 1);
+}
+
+TEST(Render, TooLittleMemoryIsSaidInOneLine) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers reserve more memory than any limit";
+#endif
+  const TemporaryDirectory directory;
+  CommandSettings settings;
+  settings.memory_limit = std::uint64_t{1} << 30;
+  const CommandResult result =
+      run_command(directory, {"render", "builtin:cornell", "-o", "a.png", "--width", "60000", "--height", "60000"}, settings);
+  expect_failure(result, 1);
+  EXPECT_THAT(result.err, HasSubstr("memory"));
+  EXPECT_EQ(directory.entry_count(), 0U);
+}
+
+}  // namespace
+}  // namespace grove::testing

@@ -1,0 +1,94 @@
+// Every wrong command gets exit code 2, one line that names the remedy, and leaves nothing behind.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/run_command.h"
+
+namespace grove::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct WrongCommand {
+  const char* name;
+  std::vector<std::string> arguments;
+  const char* message;
+};
+
+class WrongCommandTest : public ::testing::TestWithParam<WrongCommand> {};
+
+TEST_P(WrongCommandTest, IsExplainedInOneLine) {
+  const TemporaryDirectory directory;
+  const CommandResult result = run_command(directory, GetParam().arguments);
+  expect_failure(result, 2);
+  EXPECT_THAT(result.err, HasSubstr(GetParam().message));
+  EXPECT_THAT(result.err, HasSubstr("--help"));
+  EXPECT_EQ(directory.entry_count(), 0U) << "something was written";
+}
+
+std::vector<WrongCommand> wrong_commands() {
+  std::vector<WrongCommand> commands{
+      {"NoVerb", {}, "render, trace, compare, inspect, structures"},
+      {"UnknownVerb", {"paint", "scene.glb"}, "unknown verb 'paint'"},
+      {"UnknownProgramOption", {"--wat"}, "--wat"},
+      {"NoScene", {"render", "-o", "a.png"}, "SCENE is required"},
+      {"NoImage", {"render", "builtin:cornell"}, "--output is required"},
+      {"NoRays", {"trace", "builtin:cornell", "--hits", "h.npy"}, "--rays is required"},
+      {"TwoScenes", {"inspect", "builtin:cornell", "builtin:rings"}, "builtin:rings"},
+      {"UnknownOption", {"render", "builtin:cornell", "-o", "a.png", "--wat"}, "--wat"},
+      {"OptionOfAnotherVerb", {"inspect", "builtin:cornell", "--spp", "4"}, "--spp"},
+      {"NoValue", {"render", "builtin:cornell", "-o", "a.png", "--spp"}, "--spp"},
+      {"Twice", {"render", "builtin:cornell", "-o", "a.png", "--spp", "1", "--spp", "2"}, "--spp"},
+      {"UnknownExtension", {"render", "builtin:cornell", "-o", "a.jpg"}, ".exr"},
+      {"NoExtension", {"render", "builtin:cornell", "-o", "picture"}, ".exr"},
+      {"UnknownIntegrator", {"render", "builtin:cornell", "-o", "a.png", "--integrator", "magic"}, "ao"},
+      {"UnknownCamera", {"render", "builtin:cornell", "-o", "a.png", "--camera", "none such"}, "none such"},
+      {"UnknownFamily", {"inspect", "builtin:cornell", "--structure", "oak"}, "bvh"},
+      {"UnknownKey", {"inspect", "builtin:cornell", "--structure", "bvh:colour=red"}, "leaf-size"},
+      {"UnknownValue", {"inspect", "builtin:cornell", "--structure", "bvh:split=banana"}, "binned"},
+      {"EmptySpec", {"inspect", "builtin:cornell", "--structure", ""}, "bvh"},
+      {"UnknownBuiltin", {"inspect", "builtin:nothing"}, "sphereflake"},
+      {"UnknownBuiltinKey", {"inspect", "builtin:cornell?sides=3"}, "sides"},
+      {"UnknownQuery", {"trace", "builtin:cornell", "--rays", "r.npy", "--hits", "h.npy", "--query", "all"}, "closest and any"},
+      {"UnknownRays", {"compare", "builtin:cornell", "--rays", "primary,caustic"}, "primary, diffuse, shadow, random"},
+      {"EmptyRays", {"compare", "builtin:cornell", "--rays", "primary,,random"}, "empty entry"},
+      {"EmptyStructures", {"compare", "builtin:cornell", "--structures", "bvh;"}, "empty entry"},
+      {"UnknownAmongStructures", {"compare", "builtin:cornell", "--structures", "bvh;oak"}, "oak"},
+      {"BadDepths", {"inspect", "builtin:cornell", "--obj", "b.obj", "--depth", "5-2"}, "2-5"},
+      {"ValueForFlag", {"structures", "--json", "file"}, "file"},
+  };
+  // Numbers, each wrong in the same ways.
+  static std::vector<std::string> names;
+  const std::vector<std::pair<std::string, std::vector<std::string>>> numbers{
+      {"--spp", {"render", "builtin:cornell", "-o", "a.png"}},
+      {"--width", {"render", "builtin:cornell", "-o", "a.png"}},
+      {"--height", {"render", "builtin:cornell", "-o", "a.png"}},
+      {"--threads", {"render", "builtin:cornell", "-o", "a.png"}},
+      {"--rounds", {"compare", "builtin:cornell"}},
+      {"--count", {"compare", "builtin:cornell"}},
+      {"--repeat", {"trace", "builtin:cornell", "--rays", "r.npy", "--hits", "h.npy"}}};
+  const std::vector<std::pair<std::string, std::string>> values{
+      {"Negative", "-1"}, {"Zero", "0"},       {"Huge", "1e99"}, {"Long", "99999999999999999999999"},
+      {"Text", "many"},   {"Fraction", "1.5"}, {"Empty", ""}};
+  names.reserve(numbers.size() * values.size());
+  for (const auto& [option, start] : numbers) {
+    for (const auto& [kind, value] : values) {
+      WrongCommand command{names.emplace_back(kind + option.substr(2)).c_str(), start, "whole number from 1 to"};
+      command.arguments.push_back(option);
+      command.arguments.push_back(value);
+      commands.push_back(std::move(command));
+    }
+  }
+  commands.push_back({"NegativeDepth", {"render", "builtin:cornell", "-o", "a.png", "--max-depth", "-1"}, "whole number from 0 to"});
+  commands.push_back({"NegativeSeed", {"render", "builtin:cornell", "-o", "a.png", "--seed", "-1"}, "whole number from 0 to"});
+  commands.push_back({"HugeExposure", {"render", "builtin:cornell", "-o", "a.png", "--exposure", "1e99"}, "a number from"});
+  commands.push_back({"NanExposure", {"render", "builtin:cornell", "-o", "a.png", "--exposure", "nan"}, "a number from"});
+  return commands;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WrongCommandTest, ::testing::ValuesIn(wrong_commands()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace grove::testing
