@@ -94,7 +94,7 @@ Scene make_gears(const BuiltinOptions& options) {
   PartMesh room;
   add_ground(room, {0.0F, 0.0F, 0.0F}, 20.0F * width);
   add_grid(room, {-20.0F * width, 0.0F, -0.45F}, {40.0F * width, 0.0F, 0.0F}, {0.0F, 40.0F * width, 0.0F}, 1);
-  builder.add_mesh("floor and wall", std::move(room), builder.add_material(matte({0.5F, 0.48F, 0.45F})));
+  builder.add_mesh("floor and wall", std::move(room), builder.add_material(matte({0.16F, 0.19F, 0.24F})));
 
   PartMesh gears[kColours];
   for (std::uint64_t j = 0; j < side; ++j) {

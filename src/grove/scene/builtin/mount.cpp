@@ -157,9 +157,9 @@ Scene make_mount(const BuiltinOptions& options) {
                           mirror);
     }
   }
-  builder.set_sky({0.16F, 0.33F, 0.78F}, {0.8F, 0.85F, 0.92F}, {0.3F, 0.3F, 0.3F});
+  builder.set_sky({0.16F, 0.33F, 0.78F}, {0.8F, 0.85F, 0.92F}, {0.5F, 0.54F, 0.6F});
   builder.add_sun({0.75F, -0.5F, -0.35F}, {3.9F, 3.3F, 2.5F});
-  return builder.finish(look_at({0.6F, 1.55F, 5.6F}, {0.0F, -0.15F, 0.0F}, {0.0F, 1.0F, 0.0F}, 0.75F));
+  return builder.finish(look_at({0.6F, 0.7F, 5.4F}, {0.0F, -0.05F, 0.0F}, {0.0F, 1.0F, 0.0F}, 0.75F));
 }
 
 }  // namespace grove

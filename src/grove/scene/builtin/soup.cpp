@@ -57,7 +57,7 @@ Scene make_soup(const BuiltinOptions& options) {
   // Length and width shrink so that the total area, and with it how deep one sees into the soup, stays about the same.
   const auto n = static_cast<double>(count);
   const auto length = static_cast<float>(4.0 / std::sqrt(std::sqrt(n)));
-  const auto width = static_cast<float>(0.5 / (std::sqrt(n) * std::sqrt(std::sqrt(n))));
+  const auto width = static_cast<float>(2.5 / (std::sqrt(n) * std::sqrt(std::sqrt(n))));
 
   SceneBuilder builder;
   const Vec3 colours[kColours] = {{0.75F, 0.16F, 0.07F}, {0.85F, 0.55F, 0.12F}, {0.07F, 0.35F, 0.55F}, {0.8F, 0.78F, 0.72F}};
