@@ -44,7 +44,7 @@ inline std::vector<NamedBsdf> all_models() {
       {"gltf_smooth_white", MetallicRoughnessBsdf{.base_colour = white, .alpha = 0.0F}, true, true},
       {"thin_transmission_smooth", ThinTransmissionBsdf{.tint = white, .alpha = 0.0F}, true},
   };
-  for (const float alpha : {0.04F, 0.25F, 0.7F}) {
+  for (const float alpha : {0.1F, 0.25F, 0.7F}) {
     const auto add = [&](const std::string& name, const Bsdf& bsdf, bool is_lossless) {
       models.push_back({name + "_" + std::to_string(static_cast<int>(alpha * 100.0F + 0.5F)), bsdf, is_lossless});
     };

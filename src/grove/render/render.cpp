@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <stop_token>
 
 #include "grove/base/error.h"
 #include "grove/base/parallel.h"
@@ -73,20 +74,26 @@ class RenderJob {
     if (!(ao_distance_ > 0.0F)) ao_distance_ = std::numeric_limits<float>::infinity();
   }
 
-  void render_tile(std::uint32_t tile_x, std::uint32_t tile_y) {
+  /// Returns how many pixels it finished: all, unless it was stopped.
+  std::uint64_t render_tile(std::uint32_t tile_x, std::uint32_t tile_y, const std::stop_token& stop) {
     const std::uint32_t last_x = std::min(film_.width(), (tile_x + 1) * kTileSide);
     const std::uint32_t last_y = std::min(film_.height(), (tile_y + 1) * kTileSide);
     std::uint64_t rays = 0;
     std::uint64_t dropped = 0;
+    std::uint64_t finished = 0;
     for (std::uint32_t y = tile_y * kTileSide; y < last_y; ++y) {
       for (std::uint32_t x = tile_x * kTileSide; x < last_x; ++x) {
+        // With many samples a pixel, a tile takes too long to wait for.
+        if (stop.stop_requested()) break;
         for (std::uint32_t s = 0; s < settings_.samples_per_pixel; ++s) {
           if (!film_.add(x, y, sample(x, y, s, rays))) ++dropped;
         }
+        ++finished;
       }
     }
     rays_traced_ += rays;
     dropped_samples_ += dropped;
+    return finished;
   }
 
   [[nodiscard]] std::uint64_t rays_traced() const { return rays_traced_; }
@@ -175,9 +182,7 @@ RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, con
     if (progress.stop.stop_requested()) return;
     const auto tile_x = static_cast<std::uint32_t>(tile % tiles_x);
     const auto tile_y = static_cast<std::uint32_t>(tile / tiles_x);
-    job.render_tile(tile_x, tile_y);
-    const std::uint64_t pixels =
-        std::uint64_t{std::min(kTileSide, size.width - tile_x * kTileSide)} * std::min(kTileSide, size.height - tile_y * kTileSide);
+    const std::uint64_t pixels = job.render_tile(tile_x, tile_y, progress.stop);
     const std::lock_guard lock(reporting);
     done += pixels;
     if (progress.report) progress.report(done, total);

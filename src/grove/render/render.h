@@ -62,7 +62,7 @@ struct RenderResult {
 };
 
 /// Makes a picture of `scene`, which `accelerator` must have been built from. Runs in the caller's oneTBB arena over tiles of pixels,
-/// and reports pixels done. When the stop token asks, finishes the tiles under way and returns what there is.
+/// and reports pixels done. When the stop token asks, finishes the pixels under way and returns what there is.
 ///
 /// The same scene and settings give the same film, bit for bit, for any number of threads and any structure (`cost` excepted, which
 /// shows the structure). Throws UsageError for an unknown camera or impossible settings.

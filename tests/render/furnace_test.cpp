@@ -1,0 +1,115 @@
+// Furnace tests: where light comes from everywhere alike, what a surface shows is known in closed form.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "test_scenes.h"
+
+namespace grove {
+namespace {
+
+using testing::SceneMaker;
+
+// In a closed sphere of emission L and albedo a, each surface on the way adds its share: L (1 + a + a^2 + ... + a^depth).
+TEST(Furnace, ClosedSphereSumsTheGeometricSeries) {
+  const float albedo = 0.6F;
+  for (const std::uint32_t depth : {0U, 1U, 2U, 5U}) {
+    SceneMaker maker;
+    Material wall = SceneMaker::diffuse(Vec3(albedo));
+    wall.emission.value = Vec3(0.5F, 1.0F, 2.0F);
+    maker.sphere({{0.0F, 0.0F, 0.0F}, 3.0F}, maker.material(wall));
+    maker.camera({0.4F, 0.3F, 0.9F}, {0.0F, 0.2F, -1.0F});
+    const RenderResult result = testing::render_scene(maker.make(), testing::small_settings(8, 256, depth));
+    const float series = (1.0F - std::pow(albedo, static_cast<float>(depth + 1))) / (1.0F - albedo);
+    const Vec3 mean = testing::mean_radiance(result);
+    EXPECT_NEAR(mean.x, 0.5F * series, 0.01F * series) << "depth " << depth;
+    EXPECT_NEAR(mean.y, 1.0F * series, 0.02F * series) << "depth " << depth;
+    EXPECT_NEAR(mean.z, 2.0F * series, 0.04F * series) << "depth " << depth;
+    EXPECT_EQ(result.dropped_samples, 0U);
+  }
+}
+
+// The same with triangles, whose emission is sampled in another way.
+TEST(Furnace, ClosedBoxSumsTheGeometricSeries) {
+  SceneMaker maker;
+  Material wall = SceneMaker::diffuse(Vec3(0.5F));
+  wall.emission.value = Vec3(1.0F);
+  const std::uint32_t id = maker.material(wall);
+  maker.quad({0, 0, 0}, {0, 0, 1}, {1, 0, 0}, id);
+  maker.quad({0, 1, 0}, {1, 0, 0}, {0, 0, 1}, id);
+  maker.quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, id);
+  maker.quad({0, 0, 1}, {0, 1, 0}, {1, 0, 0}, id);
+  maker.quad({0, 0, 0}, {0, 1, 0}, {0, 0, 1}, id);
+  maker.quad({1, 0, 0}, {0, 0, 1}, {0, 1, 0}, id);
+  maker.camera({0.5F, 0.4F, 0.8F}, {0.4F, 0.5F, 0.1F}, 1.2F);
+  const RenderResult result = testing::render_scene(maker.make(), testing::small_settings(12, 512, 4));
+  EXPECT_NEAR(testing::mean_radiance(result).y, 1.0F + 0.5F + 0.25F + 0.125F + 0.0625F, 0.03F);
+}
+
+struct LosslessCase {
+  const char* name;
+  MaterialKind kind;
+  float roughness;
+  float metallic;
+};
+
+class LosslessFurnace : public ::testing::TestWithParam<LosslessCase> {};
+
+// A lossless object in a white sky cannot be seen.
+TEST_P(LosslessFurnace, ObjectVanishes) {
+  Material material;
+  material.kind = GetParam().kind;
+  material.base_colour.value = Vec3(1.0F);
+  material.roughness.value = GetParam().roughness;
+  material.coat_roughness.value = GetParam().roughness;
+  material.metallic.value = GetParam().metallic;
+  SceneMaker maker;
+  maker.sphere({{0.0F, 0.0F, 0.0F}, 1.0F}, maker.material(material));
+  maker.scene().environment.radiance = Vec3(1.0F);
+  maker.camera({0.0F, 0.0F, 3.0F}, {0.0F, 0.0F, 0.0F}, 0.9F);
+  // Deep enough for light that is caught in glass.
+  const RenderResult result = testing::render_scene(maker.make(), testing::small_settings(16, 256, 64));
+  for (std::uint32_t y = 0; y < 16; y += 5) {
+    for (std::uint32_t x = 0; x < 16; x += 5) EXPECT_NEAR(result.film.mean(x, y).radiance.y, 1.0F, 0.1F) << x << ", " << y;
+  }
+  EXPECT_NEAR(testing::mean_radiance(result).y, 1.0F, 0.012F);
+  EXPECT_EQ(result.dropped_samples, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Materials, LosslessFurnace,
+                         ::testing::Values(LosslessCase{"diffuse", MaterialKind::diffuse, 1.0F, 0.0F},
+                                           LosslessCase{"glass", MaterialKind::dielectric, 0.0F, 0.0F},
+                                           LosslessCase{"rough_glass", MaterialKind::dielectric, 0.6F, 0.0F},
+                                           LosslessCase{"pane", MaterialKind::thin_dielectric, 0.0F, 0.0F},
+                                           LosslessCase{"mirror", MaterialKind::conductor, 0.0F, 0.0F},
+                                           LosslessCase{"rough_metal", MaterialKind::conductor, 0.8F, 0.0F},
+                                           LosslessCase{"varnish", MaterialKind::coated_diffuse, 0.0F, 0.0F},
+                                           LosslessCase{"rough_varnish", MaterialKind::coated_diffuse, 0.5F, 0.0F},
+                                           LosslessCase{"lacquered_metal", MaterialKind::coated_conductor, 0.0F, 0.0F},
+                                           LosslessCase{"gltf_plastic", MaterialKind::metallic_roughness, 0.5F, 0.0F},
+                                           LosslessCase{"gltf_metal", MaterialKind::metallic_roughness, 0.5F, 1.0F}),
+                         [](const auto& material) { return material.param.name; });
+
+// Seen through surfaces that let everything pass, a white sky stays white; half-transparent black ones take half each.
+TEST(Furnace, TransparencyTakesItsShare) {
+  for (const MaterialKind kind : {MaterialKind::interface, MaterialKind::diffuse}) {
+    Material veil = SceneMaker::diffuse(Vec3(0.0F));
+    veil.kind = kind;
+    if (kind == MaterialKind::diffuse) {
+      veil.alpha_mode = AlphaMode::blend;
+      veil.alpha.value = 0.5F;
+    }
+    SceneMaker maker;
+    const std::uint32_t id = maker.material(veil);
+    maker.quad({-5, -5, 0}, {10, 0, 0}, {0, 10, 0}, id);
+    maker.quad({-5, -5, -1}, {10, 0, 0}, {0, 10, 0}, id);
+    maker.scene().environment.radiance = Vec3(1.0F);
+    maker.camera({0.0F, 0.0F, 3.0F}, {0.0F, 0.0F, 0.0F});
+    const RenderResult result = testing::render_scene(maker.make(), testing::small_settings(8, 256, 1));
+    EXPECT_NEAR(testing::mean_radiance(result).y, kind == MaterialKind::interface ? 1.0F : 0.25F, 0.01F);
+  }
+}
+
+}  // namespace
+}  // namespace grove
