@@ -45,6 +45,11 @@ bool is_unknown_verb(const CLI::App& program, const std::string& word) {
   return !word.starts_with('-') && std::ranges::none_of(verbs, [&](const CLI::App* verb) { return verb->get_name() == word; });
 }
 
+/// An option before the verb that the program has not.
+bool is_unknown_option(const CLI::App& program, const std::string& word) {
+  return word.starts_with('-') && program.get_option_no_throw(word) == nullptr;
+}
+
 int run(int argument_count, char** arguments) {
   // Before anything can start a thread.
   Interrupts interrupts;
@@ -65,6 +70,9 @@ int run(int argument_count, char** arguments) {
     }
     if (is_unknown_verb(program, arguments[1])) {
       throw UsageError(fmt::format("unknown verb '{}'; the verbs are {}", arguments[1], verb_list(program)));
+    }
+    if (is_unknown_option(program, arguments[1])) {
+      throw UsageError(fmt::format("unknown option '{}'; options come after a verb: {}", arguments[1], verb_list(program)));
     }
     program.parse(argument_count, arguments);
     const auto chosen = std::ranges::find_if(verbs, [](const Verb& verb) { return verb.options->parsed(); });

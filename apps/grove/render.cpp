@@ -97,7 +97,6 @@ int run(RenderOptions& options, Interrupts& interrupts) {
     result = render(scene, built.accelerator, options.settings, bar.reporter(interrupts.token()));
   }
   for (const std::string& warning : result.warnings) console.warn(warning);
-  if (result.dropped_samples > 0) console.warn(fmt::format("{} samples were not finite and were left out", result.dropped_samples));
   console.say(fmt::format("picture    {} x {} pixels, {} samples each, {} rays in {}: {} Mrays/s", result.film.width(),
                           result.film.height(), options.settings.samples_per_pixel, with_separators(result.rays_traced),
                           duration(result.seconds), short_number(1e-6 * static_cast<double>(result.rays_traced) / result.seconds)));

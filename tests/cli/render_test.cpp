@@ -138,7 +138,7 @@ TEST(Render, TooLittleMemoryIsSaidInOneLine) {
   CommandSettings settings;
   settings.memory_limit = std::uint64_t{1} << 30;
   const CommandResult result =
-      run_command(directory, {"render", "builtin:cornell", "-o", "a.png", "--width", "60000", "--height", "60000"}, settings);
+      run_command(directory, {"render", "builtin:cornell", "-o", "a.png", "--width", "16000", "--height", "16000"}, settings);
   expect_failure(result, 1);
   EXPECT_THAT(result.err, HasSubstr("memory"));
   EXPECT_EQ(directory.entry_count(), 0U);
