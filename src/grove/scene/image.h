@@ -13,7 +13,7 @@ struct Image {
   std::string name;
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::uint32_t channels = 0;  ///< 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA
+  std::uint32_t channels = 0;       ///< 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA
   std::vector<std::uint8_t> bytes;  ///< width * height * channels, or empty
   std::vector<float> floats;        ///< width * height * channels, linear, or empty
 

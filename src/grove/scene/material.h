@@ -71,9 +71,7 @@ struct Material {
   std::uint32_t mix_material[2] = {0, 0};  ///< indices into Scene::materials, lower than this one's
   ScalarParameter mix_amount{.value = 0.5F};
 
-  [[nodiscard]] bool is_emissive() const {
-    return emission.value.x > 0.0F || emission.value.y > 0.0F || emission.value.z > 0.0F;
-  }
+  [[nodiscard]] bool is_emissive() const { return emission.value.x > 0.0F || emission.value.y > 0.0F || emission.value.z > 0.0F; }
 };
 
 }  // namespace grove
