@@ -1,6 +1,7 @@
 #include "grove/render/scene_accelerator.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "grove/base/parallel.h"
@@ -19,6 +20,25 @@ void add_histogram(std::vector<std::uint64_t>& sum, const std::vector<std::uint6
   for (std::size_t i = 0; i < part.size(); ++i) sum[i] += part[i];
 }
 
+// What tracing one ray costs: the top level, and each instance's object as often as a ray that meets the top level meets the
+// instance (the ratio of areas, as within a structure). Areas in double: they overflow a float beyond 1e19.
+double two_level_cost(const Scene& scene, std::span<const std::shared_ptr<const Accelerator>> objects, const Accelerator& top,
+                      const InstanceSet& instances) {
+  const auto area = [](const Box& box) {
+    if (box.is_empty()) return 0.0;
+    const glm::dvec3 d = glm::dvec3(box.upper) - glm::dvec3(box.lower);
+    return d.x * (d.y + d.z) + d.y * d.z;
+  };
+  const double whole = area(top.bounds());
+  double cost = top.statistics().expected_cost;
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    if (instances.bounds(i).is_empty()) continue;
+    const double chance = whole > 0.0 ? area(instances.bounds(i)) / whole : 1.0;
+    cost += chance * objects[scene.instances[i].object]->statistics().expected_cost;
+  }
+  return cost;
+}
+
 }  // namespace
 
 SceneAccelerator::SceneAccelerator(const Scene& scene, std::string_view spec) {
@@ -34,9 +54,12 @@ SceneAccelerator::SceneAccelerator(const Scene& scene, std::string_view spec) {
   std::vector<InstanceSet::Instance> instances;
   instances.reserve(scene.instances.size());
   for (const Instance& instance : scene.instances) instances.push_back({objects_[instance.object], instance.object_to_world});
-  top_ = build(std::make_shared<const InstanceSet>(std::move(instances)), spec);
+  const auto top_level = std::make_shared<const InstanceSet>(std::move(instances));
+  top_ = build(top_level, spec);
 
   statistics_ = top_->statistics();
+  statistics_.expected_cost = two_level_cost(scene, objects_, *top_, *top_level);
+  statistics_.primitives = 0;
   std::uint32_t deepest = 0;
   for (const std::shared_ptr<const Accelerator>& object : objects_) {
     const StructureStatistics& part = object->statistics();

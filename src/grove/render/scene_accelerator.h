@@ -21,7 +21,8 @@ class SceneAccelerator {
   [[nodiscard]] const Accelerator& top() const { return *top_; }
   [[nodiscard]] bool has_top_level() const { return !objects_.empty(); }
   [[nodiscard]] const std::string& spec() const { return top_->spec(); }
-  /// Sums over all levels (each object once); depth is the deepest way through both; the cost is that of the top level alone.
+  /// Sums over all levels, each object once (primitives: those of the objects, references: with those to instances); depth is the deepest
+  /// way through both; the cost is that of the top level, plus each instance's object by the chance that a ray meets it.
   [[nodiscard]] const StructureStatistics& statistics() const { return statistics_; }
 
   /// The instance of the scene that a hit lies on.

@@ -54,7 +54,7 @@ Film::Sample trace_path(const PreparedScene& world, const PathSettings& settings
     if (!is_hit) {
       const EnvironmentLight& sky = world.lights.environment();
       if (!sky.is_on()) break;
-      const float weight = pdf > 0.0F ? power_heuristic(pdf, world.lights.pdf_of_environment(ray.direction)) : 1.0F;
+      const float weight = pdf > 0.0F ? power_heuristic(pdf, world.lights.pdf_of_environment(previous, ray.direction)) : 1.0F;
       result.radiance += clamped(throughput * sky.radiance(ray.direction) * weight, limit);
       break;
     }

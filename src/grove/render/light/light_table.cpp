@@ -36,32 +36,26 @@ float similarity_scale(const Transform& transform) {
   return scale;
 }
 
-float power_of(const PunctualLight& light, float scene_radius) {
-  const float intensity = luminance(light.intensity);
-  switch (light.kind) {
-    case PunctualLightKind::point:
-      return 4.0F * kPi * intensity;
-    case PunctualLightKind::spot:
-      return 2.0F * kPi * (1.0F - 0.5F * (std::cos(light.inner_angle) + std::cos(light.outer_angle))) * intensity;
-    case PunctualLightKind::directional:
-      return kPi * scene_radius * scene_radius * intensity;
+// Whether all corners lie in one plane with the middle of the group's box.
+bool is_flat(const LightChoice::Group& group, const TriangleMesh& mesh, std::uint32_t first, std::uint32_t end,
+             const Transform& transform) {
+  const Vec3 middle = group.box.centre();
+  const float tolerance = 1e-3F * glm::length(group.box.extent());
+  for (std::uint32_t t = first; t < end; ++t) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vec3 offset = transform.point(mesh.vertices()[mesh.triangles()[t][corner]]) - middle;
+      if (!(std::fabs(glm::dot(offset, group.normal)) <= tolerance)) return false;
+    }
   }
-  return 0.0F;
+  return true;
 }
 
 }  // namespace
 
 LightTable::LightTable(const Scene& scene, const SurfaceTable& surfaces) : scene_(&scene), surfaces_(&surfaces) {
-  std::vector<float> power;
-  add_surfaces(power);
-  const std::size_t surface_count = lights_.size();
-  const Box bounds = scene.bounds();
-  const float radius = bounds.is_empty() ? 1.0F : 0.5F * glm::length(bounds.extent());
-  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-    if (!(luminance(scene.lights[i].intensity) > 0.0F)) continue;
-    lights_.push_back({.kind = Kind::punctual, .instance = i});
-    power.push_back(power_of(scene.lights[i], radius));
-  }
+  Gathered gathered;
+  add_surfaces(gathered);
+  add_punctual(gathered);
   if (scene.environment.is_on()) {
     const std::uint32_t image = scene.environment.image;
     environment_ = EnvironmentLight(scene.environment, image == 0xffffffffU ? nullptr : scene.images[image]);
@@ -72,65 +66,88 @@ LightTable::LightTable(const Scene& scene, const SurfaceTable& surfaces) : scene
   if (environment_.is_on()) {
     environment_light_ = static_cast<std::uint32_t>(lights_.size());
     lights_.push_back({.kind = Kind::environment});
-    power.push_back(4.0F * kPi * kPi * radius * radius * environment_.mean_luminance());
+    gathered.power.push_back(kPi * environment_.mean_luminance());
+    gathered.groups.push_back({.first = environment_light_, .count = 1, .box = {}, .strength = kPi * environment_.mean_luminance()});
   }
-
-  double total = 0.0;
-  double surface_total = 0.0;
-  for (std::size_t i = 0; i < power.size(); ++i) {
-    if (!std::isfinite(power[i])) power[i] = 0.0F;
-    total += static_cast<double>(power[i]);
-    if (i < surface_count) surface_total += static_cast<double>(power[i]);
-  }
-  const double kinds = static_cast<double>(power.size() - surface_count) + (surface_count > 0 ? 1.0 : 0.0);
-  std::vector<float> weights(power.size());
-  for (std::size_t i = 0; i < power.size(); ++i) {
-    const double by_power = total > 0.0 ? static_cast<double>(power[i]) / total : 0.0;
-    double evenly = 1.0 / kinds;
-    if (i < surface_count) evenly *= surface_total > 0.0 ? static_cast<double>(power[i]) / surface_total : 0.0;
-    weights[i] = static_cast<float>(0.5 * by_power + 0.5 * evenly);
-  }
-  chance_ = AliasTable(weights);
+  choice_ = LightChoice(std::move(gathered.groups), gathered.power);
 }
 
-void LightTable::add_surfaces(std::vector<float>& power) {
+void LightTable::add_punctual(Gathered& gathered) {
+  for (std::uint32_t i = 0; i < scene_->lights.size(); ++i) {
+    const PunctualLight& light = scene_->lights[i];
+    const float strength = luminance(light.intensity);
+    if (!(strength > 0.0F) || !std::isfinite(strength)) continue;
+    LightChoice::Group group{.first = static_cast<std::uint32_t>(lights_.size()), .count = 1, .box = {}, .strength = strength};
+    if (light.kind != PunctualLightKind::directional) group.box.grow(light.position);
+    if (light.kind == PunctualLightKind::spot) {
+      group.is_planar = true;
+      group.normal = light.direction;
+    }
+    lights_.push_back({.kind = Kind::punctual, .instance = i});
+    gathered.power.push_back(strength);
+    gathered.groups.push_back(group);
+  }
+}
+
+void LightTable::add_surfaces(Gathered& gathered) {
   for (std::uint32_t i = 0; i < scene_->instances.size(); ++i) {
     const Instance& instance = scene_->instances[i];
     const Object& object = scene_->objects[instance.object];
     first_part_.push_back(static_cast<std::uint32_t>(first_light_.size()));
     for (std::uint32_t p = 0; p < object.parts.size(); ++p) {
-      const Material& material = scene_->materials[object.parts[p].material];
       first_light_.push_back(kInvalidId);
-      if (!material.is_emissive() || !instance.object_to_world.is_invertible()) continue;
-      first_light_.back() = static_cast<std::uint32_t>(lights_.size());
-      const float sides = material.two_sided_emission ? 2.0F : 1.0F;
-      const float exitance = kPi * sides * mean_luminance(*scene_, material.emission);
-      if (const auto* mesh = std::get_if<std::shared_ptr<TriangleMesh>>(&object.geometry)) {
-        const std::uint32_t first = (*mesh)->first_triangle(p);
-        const std::uint32_t last =
-            p + 1 < (*mesh)->part_count() ? (*mesh)->first_triangle(p + 1) : static_cast<std::uint32_t>((*mesh)->size());
-        for (std::uint32_t t = first; t < last; ++t) {
-          // What can never be hit must not be sampled either: its area may not even be a number.
-          const bool is_hittable = !(*mesh)->bounds(t).is_empty();
-          const float area = is_hittable ? triangle_area(**mesh, t, instance.object_to_world) : 0.0F;
-          lights_.push_back({Kind::triangle, i, p, t - first, area});
-          power.push_back(exitance * area);
-        }
-      } else {
-        const SphereSet& spheres = *std::get<std::shared_ptr<SphereSet>>(object.geometry);
-        const std::uint32_t first = spheres.first_sphere(p);
-        const std::uint32_t last = p + 1 < spheres.part_count() ? spheres.first_sphere(p + 1) : static_cast<std::uint32_t>(spheres.size());
-        const float volume_scale = std::fabs(glm::determinant(Mat3(instance.object_to_world.matrix())));
-        const float area_scale = std::pow(volume_scale, 2.0F / 3.0F);
-        for (std::uint32_t s = first; s < last; ++s) {
-          const float radius = spheres.bounds(s).is_empty() ? 0.0F : spheres.sphere(s).radius;
-          const float area = 4.0F * kPi * radius * radius;
-          lights_.push_back({Kind::sphere, i, p, s - first, area});
-          power.push_back(exitance * area * area_scale);
-        }
-      }
+      if (!scene_->materials[object.parts[p].material].is_emissive() || !instance.object_to_world.is_invertible()) continue;
+      const auto first = static_cast<std::uint32_t>(lights_.size());
+      add_part(i, p, gathered);
+      if (lights_.size() > first) first_light_.back() = first;
     }
   }
+}
+
+void LightTable::add_part(std::uint32_t instance_id, std::uint32_t part, Gathered& gathered) {
+  const Instance& instance = scene_->instances[instance_id];
+  const Object& object = scene_->objects[instance.object];
+  const Material& material = scene_->materials[object.parts[part].material];
+  const float radiance = mean_luminance(*scene_, material.emission);
+  LightChoice::Group group{.first = static_cast<std::uint32_t>(lights_.size()), .count = 0, .box = {}};
+  const auto add = [&](const Light& light, float world_area, const Box& bounds) {
+    lights_.push_back(light);
+    const float power = std::isfinite(radiance * world_area) ? radiance * world_area : 0.0F;
+    gathered.power.push_back(power);
+    group.box.grow(bounds);
+    group.strength += power;
+    ++group.count;
+  };
+  if (const auto* pointer = std::get_if<std::shared_ptr<TriangleMesh>>(&object.geometry)) {
+    const TriangleMesh& mesh = **pointer;
+    const std::uint32_t first = mesh.first_triangle(part);
+    const std::uint32_t end = part + 1 < mesh.part_count() ? mesh.first_triangle(part + 1) : static_cast<std::uint32_t>(mesh.size());
+    group.is_planar = !material.two_sided_emission && end > first;
+    for (std::uint32_t t = first; t < end; ++t) {
+      // What can never be hit must not be sampled either: its area may not even be a number.
+      const Box bounds = mesh.bounds(t);
+      const float area = bounds.is_empty() ? 0.0F : triangle_area(mesh, t, instance.object_to_world);
+      add({Kind::triangle, instance_id, part, t - first, area}, area, instance.object_to_world.box(bounds));
+      if (!group.is_planar || !(area > 0.0F)) continue;
+      const Vec3 normal = surfaces_->on_triangle(instance_id, part, t - first, Vec2(1.0F / 3.0F)).geometric_normal;
+      if (group.normal == Vec3(0.0F)) group.normal = normal;
+      group.is_planar = glm::dot(group.normal, normal) > 0.9999F;
+    }
+    group.is_planar = group.is_planar && is_flat(group, mesh, first, end, instance.object_to_world);
+  } else {
+    const SphereSet& spheres = *std::get<std::shared_ptr<SphereSet>>(object.geometry);
+    const std::uint32_t first = spheres.first_sphere(part);
+    const std::uint32_t end = part + 1 < spheres.part_count() ? spheres.first_sphere(part + 1) : static_cast<std::uint32_t>(spheres.size());
+    const float area_scale = std::pow(std::fabs(glm::determinant(Mat3(instance.object_to_world.matrix()))), 2.0F / 3.0F);
+    for (std::uint32_t s = first; s < end; ++s) {
+      const Box bounds = spheres.bounds(s);
+      const float radius = bounds.is_empty() ? 0.0F : spheres.sphere(s).radius;
+      const float area = 4.0F * kPi * radius * radius;
+      // A quarter of the area is seen from any one side.
+      add({Kind::sphere, instance_id, part, s - first, area}, 0.25F * area * area_scale, instance.object_to_world.box(bounds));
+    }
+  }
+  if (group.count > 0) gathered.groups.push_back(group);
 }
 
 Vec3 LightTable::emitted(const SurfacePoint& point, const Vec3& direction) const {
@@ -141,9 +158,9 @@ Vec3 LightTable::emitted(const SurfacePoint& point, const Vec3& direction) const
 }
 
 LightSample LightTable::sample(const Vec3& from, float u_light, const Vec2& u) const {
-  if (lights_.empty()) return {};
-  const AliasTable::Draw draw = chance_.draw(u_light);
-  const Light& light = lights_[draw.index];
+  if (choice_.is_empty()) return {};
+  const LightChoice::Choice choice = choice_.choose(from, u_light);
+  const Light& light = lights_[choice.light];
   LightSample result;
   switch (light.kind) {
     case Kind::triangle:
@@ -162,7 +179,7 @@ LightSample LightTable::sample(const Vec3& from, float u_light, const Vec2& u) c
       break;
     }
   }
-  result.pdf *= draw.probability;
+  result.pdf *= choice.probability;
   return result;
 }
 
@@ -272,12 +289,12 @@ float LightTable::pdf_of_hit(const Vec3& from, const Hit& hit, const SurfacePoin
   const std::uint32_t first = first_light_[first_part_[instance] + hit.geometry];
   if (first == kInvalidId) return 0.0F;
   const std::uint32_t id = first + hit.primitive;
-  return chance_.probability(id) * surface_pdf(lights_[id], from, point);
+  return choice_.probability(from, id) * surface_pdf(lights_[id], from, point);
 }
 
-float LightTable::pdf_of_environment(const Vec3& direction) const {
+float LightTable::pdf_of_environment(const Vec3& from, const Vec3& direction) const {
   if (environment_light_ == kInvalidId) return 0.0F;
-  return chance_.probability(environment_light_) * environment_.pdf(direction);
+  return choice_.probability(from, environment_light_) * environment_.pdf(direction);
 }
 
 }  // namespace grove

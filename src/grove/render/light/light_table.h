@@ -5,7 +5,7 @@
 
 #include "grove/geometry/hit.h"
 #include "grove/render/light/environment_light.h"
-#include "grove/render/sampling/alias_table.h"
+#include "grove/render/light/light_choice.h"
 #include "grove/render/surface/surface_table.h"
 #include "grove/scene/scene.h"
 
@@ -28,8 +28,7 @@ struct LightSample {
 
 /// All lights of a scene, ready to be chosen and sampled: emissive triangles and spheres, punctual lights, the environment.
 ///
-/// One light is drawn from an alias table. Half of the chance is shared by power, half evenly between the kinds that there are (emissive
-/// surfaces, the environment, each punctual light), so that no light starves beside a strong one that is hidden.
+/// One light is chosen as light_choice.h says.
 class LightTable {
  public:
   /// Refers to `scene` and `surfaces`. A scene without any light is given a sky.
@@ -45,8 +44,8 @@ class LightTable {
 
   /// The density with which `sample` from `from` gives the emissive point that a ray hit; 0 where it does not.
   [[nodiscard]] float pdf_of_hit(const Vec3& from, const Hit& hit, const SurfacePoint& point) const;
-  /// The same for the environment in a direction.
-  [[nodiscard]] float pdf_of_environment(const Vec3& direction) const;
+  /// The same for the environment in a direction from `from`.
+  [[nodiscard]] float pdf_of_environment(const Vec3& from, const Vec3& direction) const;
 
   /// The radiance that a surface point sends towards `direction` (unit length).
   [[nodiscard]] Vec3 emitted(const SurfacePoint& point, const Vec3& direction) const;
@@ -61,7 +60,14 @@ class LightTable {
     float area = 0.0F;            // world; spheres: of the undistorted one
   };
 
-  void add_surfaces(std::vector<float>& power);
+  // Lights while they are gathered: `power` has one entry a light, `groups` cover them in order.
+  struct Gathered {
+    std::vector<float> power;
+    std::vector<LightChoice::Group> groups;
+  };
+  void add_surfaces(Gathered& gathered);
+  void add_part(std::uint32_t instance, std::uint32_t part, Gathered& gathered);
+  void add_punctual(Gathered& gathered);
   [[nodiscard]] LightSample sample_surface(const Light& light, const Vec3& from, const Vec2& u) const;
   [[nodiscard]] LightSample sample_punctual(const PunctualLight& light, const Vec3& from) const;
   // Density over solid angle, without the chance of the light.
@@ -79,7 +85,7 @@ class LightTable {
   EnvironmentLight environment_;
   bool has_default_sky_ = false;
   std::vector<Light> lights_;
-  AliasTable chance_;
+  LightChoice choice_;
   std::uint32_t environment_light_ = kInvalidId;
   // first_light_[first_part_[instance] + geometry] is the light of the part's first primitive, or kInvalidId.
   std::vector<std::uint32_t> first_part_;
