@@ -55,7 +55,7 @@ int run(const InspectOptions& options, Interrupts& interrupts) {
   }
   if (!options.obj.empty()) {
     const std::uint64_t box_count = write_node_boxes(options.obj, built.accelerator.top(), depths);
-    console.say(fmt::format("\nwrote {} with {} boxes", options.obj.string(), with_separators(box_count)));
+    console.say(fmt::format("\nwrote {}: {} boxes", options.obj.string(), with_separators(box_count)));
   }
   return 0;
 }
@@ -78,7 +78,7 @@ Verb add_inspect(CLI::App& program) {
       "Examples:\n"
       "  grove inspect builtin:mount\n"
       "  grove inspect scene.glb --structure bvh:leaf-size=4 --json inspect.json\n"
-      "  grove inspect builtin:sphereflake --obj boxes.obj --depth 0-6");
+      "  grove inspect builtin:rings --obj boxes.obj --depth 0-6");
   return {&verb, [options](Interrupts& interrupts) { return with_threads(options->threads, [&] { return run(*options, interrupts); }); }};
 }
 

@@ -97,9 +97,10 @@ int run(RenderOptions& options, Interrupts& interrupts) {
     result = render(scene, built.accelerator, options.settings, bar.reporter(interrupts.token()));
   }
   for (const std::string& warning : result.warnings) console.warn(warning);
-  console.say(fmt::format("picture    {} x {} pixels, {} samples each, {} rays in {}: {} Mrays/s", result.film.width(),
-                          result.film.height(), options.settings.samples_per_pixel, with_separators(result.rays_traced),
-                          duration(result.seconds), short_number(1e-6 * static_cast<double>(result.rays_traced) / result.seconds)));
+  console.say(fmt::format("picture    {} x {} pixels, {} sample{} each, {} rays in {}: {} Mrays/s", result.film.width(),
+                          result.film.height(), options.settings.samples_per_pixel, options.settings.samples_per_pixel == 1 ? "" : "s",
+                          with_separators(result.rays_traced), duration(result.seconds),
+                          short_number(1e-6 * static_cast<double>(result.rays_traced) / result.seconds)));
   write_images(options, result, console);
   if (!options.json.empty()) write_figures(options, result, built.statistics, scene, spec);
   if (!result.interrupted) return 0;

@@ -48,7 +48,7 @@ TEST(Compare, TracesTheKindsOfRaysAskedFor) {
 TEST(Compare, LeavesBruteForceOutOfLargeScenesAndSaysSo) {
   const TemporaryDirectory directory;
   const CommandResult result =
-      run_command(directory, {"compare", "builtin:sphereflake", "--rays", "primary", "--count", "20000", "--rounds", "1"});
+      run_command(directory, {"compare", "builtin:rings", "--rays", "primary", "--count", "20000", "--rounds", "1"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("note: brute is left out"));
   EXPECT_THAT(result.out, HasSubstr("note: brute force answered"));

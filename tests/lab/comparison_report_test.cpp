@@ -22,6 +22,7 @@ Comparison two_rows() {
   comparison.machine = {"a processor", 8, 2, "a compiler", "abc", "a system"};
   ComparisonRow good;
   good.structure = "bvh";
+  good.ray_count = 1000;
   good.mrays_per_s = {2.0, 1.0, 3.0};
   good.ratio_to_first = {1.0, 1.0, 1.0};
   good.nodes_per_ray = 12.5;
@@ -31,6 +32,7 @@ Comparison two_rows() {
   good.expected_cost = 40.0;
   ComparisonRow bad;
   bad.structure = "brute";
+  bad.ray_count = 10;
   bad.error = "out of memory";
   comparison.rows = {good, bad};
   comparison.notes = {"something was left out"};
@@ -79,9 +81,9 @@ TEST(ComparisonReport, CsvQuotesWhatNeedsIt) {
   std::getline(lines, heading);
   std::getline(lines, good);
   std::getline(lines, bad);
-  EXPECT_EQ(good, "\"a \"\"scene\"\", of sorts\",primary,bvh,2,1,3,1,12.5,3.25,0.5,0.25,0.75,2048,40,0,");
-  EXPECT_EQ(bad, "\"a \"\"scene\"\", of sorts\",primary,brute,,,,,,,,,,,,,out of memory");
-  EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 15);
+  EXPECT_EQ(good, "\"a \"\"scene\"\", of sorts\",primary,bvh,1000,2,1,3,1,12.5,3.25,0.5,0.25,0.75,2048,40,0,");
+  EXPECT_EQ(bad, "\"a \"\"scene\"\", of sorts\",primary,brute,10,,,,,,,,,,,,,out of memory");
+  EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 16);
 }
 
 TEST(ComparisonReport, SaysWhenOnlyASampleWasChecked) {

@@ -54,6 +54,25 @@ TEST_F(ReferenceTest, ASmallBudgetChecksASampleAndTheOthersAgainstTheFirst) {
   EXPECT_EQ(reference.count_mismatches(hits_), 1U) << "ray 11 differs from the first structure";
 }
 
+TEST_F(ReferenceTest, ChecksAnEvenPartOfTheRays) {
+  Reference reference(brute_.top(), 212, Query::closest, rays_, 1'000'000);
+  std::vector<Hit> part;
+  for (std::size_t i = 0; i < hits_.size(); i += 3) part.push_back(hits_[i]);
+  EXPECT_EQ(reference.count_mismatches(part, 3), 0U);
+  part[7].primitive ^= 1U;
+  EXPECT_EQ(reference.count_mismatches(part, 3), 1U);
+}
+
+TEST_F(ReferenceTest, APartDoesNotSettleWhatIsRight) {
+  Reference reference(brute_.top(), 212, Query::closest, rays_, 212 * 100);
+  std::vector<Hit> wrong(500);
+  for (std::size_t k = 0; k < wrong.size(); ++k) wrong[k] = hits_[2 * k];
+  wrong[1].primitive ^= 1U;  // ray 2, not in the sample of every tenth ray
+  EXPECT_EQ(reference.count_mismatches(wrong, 2), 0U);
+  EXPECT_EQ(reference.count_mismatches(hits_), 0U);
+  EXPECT_EQ(reference.count_mismatches(wrong, 2), 1U);
+}
+
 TEST_F(ReferenceTest, ChecksAtLeastOneRay) {
   EXPECT_EQ(Reference(brute_.top(), 212, Query::any, rays_, 0).sampled_count(), 1U);
   EXPECT_EQ(Reference(brute_.top(), 212, Query::any, {}, 1000).sampled_count(), 0U);

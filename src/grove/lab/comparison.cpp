@@ -13,8 +13,10 @@
 namespace grove {
 namespace {
 
-/// Brute force is in the default list up to this many tests a kind of rays: about half a second on one thread.
-constexpr double kBruteTestLimit = 5e7;
+/// Brute force traces as many rays of each kind as make about this many tests: a tenth of a second on one thread.
+constexpr std::uint64_t kBruteTests = 10'000'000;
+/// It is in the default list where that is at least this many rays.
+constexpr std::uint64_t kFewestBruteRays = 1000;
 /// A rate is measured over at least this long, by tracing the same rays again, so that the clock's steps do not show.
 constexpr double kShortestMeasurement = 0.02;
 
@@ -22,7 +24,8 @@ constexpr double kShortestMeasurement = 0.02;
 struct Workload {
   RayKind kind;
   std::vector<Ray> rays;
-  std::string error;  // why there are none
+  std::vector<Ray> sample;  // every brute_stride_-th of them, where that is not 1
+  std::string error;        // why there are none
   std::optional<Reference> reference;
 };
 
@@ -30,6 +33,7 @@ struct Workload {
 struct Contender {
   std::string spec;
   std::string error;
+  std::size_t stride = 1;  // it traces every stride-th ray
   std::vector<double> build_seconds;
   std::vector<ComparisonRow> rows;
   std::vector<std::vector<double>> rates;  // of each workload, by round; 0 where the round gave none
@@ -78,15 +82,19 @@ class Run {
 
   void prepare_contenders(std::vector<std::string>& notes) {
     std::vector<std::string> specs = settings_.structures;
-    if (specs.empty()) specs = default_specs(scene_.primitive_count(), settings_.workload.ray_count, notes);
+    if (specs.empty()) specs = default_specs(scene_.primitive_count(), notes);
+    const std::uint64_t brute_rays = std::max<std::uint64_t>(1, kBruteTests / std::max<std::uint64_t>(1, scene_.primitive_count()));
+    brute_stride_ = (settings_.workload.ray_count + brute_rays - 1) / brute_rays;
     for (const std::string& spec : specs) {
       Contender contender;
       contender.spec = canonical_spec(spec);
+      contender.stride = contender.spec == "brute" ? brute_stride_ : 1;
       contender.rates.resize(settings_.rays.size());
       for (const RayKind kind : settings_.rays) {
         ComparisonRow row;
         row.structure = contender.spec;
         row.rays = kind;
+        row.ray_count = (settings_.workload.ray_count + contender.stride - 1) / contender.stride;
         contender.rows.push_back(row);
       }
       contenders_.push_back(std::move(contender));
@@ -103,6 +111,9 @@ class Run {
       workload.kind = kind;
       try {
         workload.rays = make_rays(kind, scene_, accelerator, camera, settings_.workload);
+        if (brute_stride_ > 1) {
+          for (std::size_t i = 0; i < workload.rays.size(); i += brute_stride_) workload.sample.push_back(workload.rays[i]);
+        }
         workload.reference.emplace(brute.top(), scene_.primitive_count(), query_of(kind), workload.rays, settings_.check_budget);
       } catch (const std::exception& exception) {
         workload.error = reason(exception);
@@ -123,7 +134,7 @@ class Run {
         row.bytes = accelerator.statistics().bytes;
         row.expected_cost = accelerator.statistics().expected_cost;
         row.error = workload.error;
-        if (workload.error.empty()) check(accelerator.top(), workload, row);
+        if (workload.error.empty()) check(accelerator.top(), workload, contender.stride, row);
         step();
       }
     } catch (const std::exception& exception) {
@@ -131,13 +142,18 @@ class Run {
     }
   }
 
-  static void check(const Accelerator& accelerator, Workload& workload, ComparisonRow& row) {
-    std::vector<Hit> hits(workload.rays.size());
-    const TraversalCounts counts = trace_counted(accelerator, query_of(workload.kind), workload.rays, hits);
+  static std::span<const Ray> rays_of(const Workload& workload, std::size_t stride) {
+    return stride == 1 ? workload.rays : workload.sample;
+  }
+
+  static void check(const Accelerator& accelerator, Workload& workload, std::size_t stride, ComparisonRow& row) {
+    const std::span<const Ray> rays = rays_of(workload, stride);
+    std::vector<Hit> hits(rays.size());
+    const TraversalCounts counts = trace_counted(accelerator, query_of(workload.kind), rays, hits);
     const auto ray_count = static_cast<double>(hits.size());
     row.nodes_per_ray = static_cast<double>(counts.nodes_visited) / ray_count;
     row.tests_per_ray = static_cast<double>(counts.primitives_tested) / ray_count;
-    row.mismatches = workload.reference->count_mismatches(hits);
+    row.mismatches = workload.reference->count_mismatches(hits, stride);
     if (row.mismatches > 0) {
       row.error = std::to_string(row.mismatches) + " of " + std::to_string(hits.size()) + " hits are not the reference's";
     }
@@ -152,7 +168,9 @@ class Run {
         const SceneAccelerator accelerator(scene_, contender.spec);
         contender.build_seconds.push_back(timer.seconds());
         for (std::size_t i = 0; i < workloads_.size(); ++i) {
-          contender.rates[i].push_back(contender.rows[i].error.empty() ? rate(accelerator.top(), workloads_[i]) : 0.0);
+          contender.rates[i].push_back(contender.rows[i].error.empty()
+                                           ? rate(accelerator.top(), workloads_[i].kind, rays_of(workloads_[i], contender.stride))
+                                           : 0.0);
           step();
         }
       } catch (const std::exception& exception) {
@@ -162,15 +180,15 @@ class Run {
   }
 
   /// Millions of rays a second.
-  double rate(const Accelerator& accelerator, const Workload& workload) {
-    hits_.resize(workload.rays.size());
+  double rate(const Accelerator& accelerator, RayKind kind, std::span<const Ray> rays) {
+    hits_.resize(rays.size());
     const Timer timer;
     std::size_t repeats = 0;
     do {
-      trace(accelerator, query_of(workload.kind), workload.rays, hits_);
+      trace(accelerator, query_of(kind), rays, hits_);
       ++repeats;
     } while (timer.seconds() < kShortestMeasurement);
-    return 1e-6 * static_cast<double>(repeats * workload.rays.size()) / timer.seconds();
+    return 1e-6 * static_cast<double>(repeats * rays.size()) / timer.seconds();
   }
 
   void collect(std::vector<ComparisonRow>& rows) const {
@@ -201,18 +219,19 @@ class Run {
   std::vector<Contender> contenders_;
   std::vector<Workload> workloads_;
   std::vector<Hit> hits_;
+  std::size_t brute_stride_ = 1;
   std::uint64_t rays_traced_ = 0;
   std::uint64_t rays_to_trace_ = 0;
 };
 
 }  // namespace
 
-std::vector<std::string> default_specs(std::uint64_t primitive_count, std::size_t ray_count, std::vector<std::string>& notes) {
+std::vector<std::string> default_specs(std::uint64_t primitive_count, std::vector<std::string>& notes) {
   std::vector<std::string> specs;
   for (const std::string_view spec : representative_specs()) {
-    if (spec == "brute" && static_cast<double>(primitive_count) * static_cast<double>(ray_count) > kBruteTestLimit) {
-      notes.push_back("brute is left out: " + std::to_string(ray_count) + " rays of each kind at " + std::to_string(primitive_count) +
-                      " primitives would take long; name it among the structures to have it");
+    if (spec == "brute" && primitive_count > kBruteTests / kFewestBruteRays) {
+      notes.push_back("brute is left out, as it would take long on " + std::to_string(primitive_count) +
+                      " primitives; name it among the structures to have it");
       continue;
     }
     specs.emplace_back(spec);

@@ -21,13 +21,15 @@ struct ComparisonSettings {
   /// As RenderSettings::camera.
   std::string camera;
   /// Ray-primitive tests that checking by brute force may take, for each kind of rays.
-  std::uint64_t check_budget = 50'000'000;
+  std::uint64_t check_budget = 20'000'000;
 };
 
 /// One structure on one kind of rays.
 struct ComparisonRow {
   std::string structure;  ///< canonical spec
   RayKind rays = RayKind::primary;
+  /// Rays that were traced: all, or for brute force an even sample of them where all would take long.
+  std::size_t ray_count = 0;
   /// Why the row has no times: the structure could not be built or traced, or its hits are wrong. Empty when all is well.
   std::string error;
   Spread mrays_per_s;
@@ -55,9 +57,9 @@ struct Comparison {
   std::vector<std::string> notes;
 };
 
-/// The specs that stand for all families and heuristics; brute force only when `primitive_count` times `ray_count` tests are soon done.
+/// The specs that stand for all families and heuristics; brute force only for scenes so small that a fair number of rays is soon traced.
 /// Adds a line to `notes` when it is left out.
-[[nodiscard]] std::vector<std::string> default_specs(std::uint64_t primitive_count, std::size_t ray_count, std::vector<std::string>& notes);
+[[nodiscard]] std::vector<std::string> default_specs(std::uint64_t primitive_count, std::vector<std::string>& notes);
 
 /// Builds each structure over `scene` and traces each kind of rays with it. All hits are checked and all work is counted first; then
 /// building and tracing are timed, interleaved: in each round every structure in turn, so that what disturbs the machine disturbs all of

@@ -13,7 +13,7 @@ namespace grove {
 /// A table for people, one block a kind of rays; failed rows carry their reason. The notes follow.
 [[nodiscard]] std::string comparison_table(const Comparison& comparison);
 
-/// scene, machine and rows: structure, rays, mrays_per_s, nodes_per_ray, tests_per_ray, build_seconds, bytes, expected_cost, mismatches,
+/// scene, machine and rows: structure, rays, ray_count, mrays_per_s, nodes_per_ray, tests_per_ray, build_seconds, bytes, expected_cost, mismatches,
 /// ratio_to_first. A failed row has an `error`, and null for each figure that it lacks.
 [[nodiscard]] nlohmann::ordered_json comparison_json(const Comparison& comparison);
 

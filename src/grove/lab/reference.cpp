@@ -20,15 +20,19 @@ Reference::Reference(const Accelerator& brute, std::uint64_t primitive_count, Qu
   sampled_count_ = sample.size();
 }
 
-std::uint64_t Reference::count_mismatches(std::span<const Hit> hits) {
-  GROVE_CHECK(hits.size() == hits_.size());
+std::uint64_t Reference::count_mismatches(std::span<const Hit> hits, std::size_t stride) {
+  GROVE_CHECK(hits.size() == (hits_.size() + stride - 1) / stride);
   std::uint64_t count = 0;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (!is_complete_ && i % stride_ != 0) hits_[i] = hits[i];
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    const std::size_t i = k * stride;
+    if (!is_complete_ && i % stride_ != 0) {
+      if (stride == 1) hits_[i] = hits[k];
+      continue;
+    }
     // Bits, not values: +0 and -0 are different answers.
-    if (std::memcmp(&hits_[i], &hits[i], sizeof(Hit)) != 0) ++count;
+    if (std::memcmp(&hits_[i], &hits[k], sizeof(Hit)) != 0) ++count;
   }
-  is_complete_ = true;
+  if (stride == 1) is_complete_ = true;
   return count;
 }
 

@@ -16,14 +16,15 @@ class Reference {
   /// primitives; at least one. `brute` must test every primitive.
   Reference(const Accelerator& brute, std::uint64_t primitive_count, Query query, std::span<const Ray> rays, std::uint64_t test_budget);
 
-  /// The number of answers that differ, in any bit of any field, from the right ones. The first call settles the rays outside the sample.
-  [[nodiscard]] std::uint64_t count_mismatches(std::span<const Hit> hits);
+  /// The number of answers that differ, in any bit of any field, from the right ones; hits[k] answers ray k * `stride`. The first call
+  /// with all rays settles those outside the sample; until then they count as right.
+  [[nodiscard]] std::uint64_t count_mismatches(std::span<const Hit> hits, std::size_t stride = 1);
 
   /// How many rays brute force answered.
   [[nodiscard]] std::uint64_t sampled_count() const { return sampled_count_; }
 
  private:
-  std::vector<Hit> hits_;  // complete after the first call of count_mismatches
+  std::vector<Hit> hits_;  // complete once is_complete_
   std::uint64_t stride_ = 1;
   std::uint64_t sampled_count_ = 0;
   bool is_complete_ = false;
