@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "grove/base/error.h"
 #include "grove/math/transform.h"
@@ -12,7 +13,11 @@ namespace grove {
 CameraRays::CameraRays(const Camera& camera, std::uint32_t width, std::uint32_t height)
     : camera_to_world_(camera.camera_to_world), lens_radius_(camera.lens_radius), focus_distance_(camera.focus_distance) {
   const std::string name = camera.name.empty() ? "the camera" : "camera '" + camera.name + "'";
-  if (!Transform(camera.camera_to_world).is_invertible()) throw InputError(name + " has a transform that cannot be inverted");
+  // Rays need its directions to be invertible and its place to be finite; the inverse of a huge translation may overflow.
+  const bool is_placed = Ray::is_within(Vec3(camera.camera_to_world[3]), std::numeric_limits<float>::max());
+  if (!is_placed || !Transform(Mat4(Mat3(camera.camera_to_world))).is_invertible()) {
+    throw InputError(name + " has a transform that cannot be inverted");
+  }
   if (!(camera.field_of_view > 0.0F && camera.field_of_view < kPi)) {
     throw InputError(name + " has a field of view that is not between 0 and 180 degrees");
   }
