@@ -74,7 +74,7 @@ TEST(TriangleDistance, IsRightToTheLastDigits) {
     const Ray ray{origin, 0.0F, aim - origin};
     Hit hit;
     const std::uint32_t id = 3;
-    if (!intersect_watertight(WatertightRay(ray), corners[0], corners[1], corners[2], &id, hit)) continue;
+    if (!intersect_watertight(WatertightRay(ray), SingleTriangle(corners[0], corners[1], corners[2]).corners, &id, hit)) continue;
     ++hits;
     using Exact = glm::tvec3<long double>;
     const Exact e1 = Exact(corners[1]) - Exact(corners[0]);
@@ -93,25 +93,23 @@ TEST(TriangleDistance, IsRightToTheLastDigits) {
 }
 
 TEST(TriangleTest, TakesBothSidesAndClosedLimits) {
-  const Vec3 v0(0.0F);
-  const Vec3 v1(1.0F, 0.0F, 0.0F);
-  const Vec3 v2(0.0F, 1.0F, 0.0F);
+  const SingleTriangle triangle(Vec3(0.0F), Vec3(1.0F, 0.0F, 0.0F), Vec3(0.0F, 1.0F, 0.0F));
   const std::uint32_t id = 0;
   for (const float side : {1.0F, -1.0F}) {
     Ray ray{{0.25F, 0.5F, side}, 0.0F, {0.0F, 0.0F, -side}};
     Hit hit;
-    ASSERT_TRUE(intersect_watertight(WatertightRay(ray), v0, v1, v2, &id, hit));
+    ASSERT_TRUE(intersect_watertight(WatertightRay(ray), triangle.corners, &id, hit));
     EXPECT_EQ(hit.t, 1.0F);
     EXPECT_EQ(hit.u, 0.25F);
     EXPECT_EQ(hit.v, 0.5F);
     ray.t_min = ray.t_max = 1.0F;
-    EXPECT_TRUE(occluded_watertight(WatertightRay(ray), v0, v1, v2));
+    EXPECT_TRUE(occluded_watertight(WatertightRay(ray), triangle.corners));
     ray.t_min = 0.0F;
     ray.t_max = std::nextafter(1.0F, 0.0F);
-    EXPECT_FALSE(occluded_watertight(WatertightRay(ray), v0, v1, v2));
+    EXPECT_FALSE(occluded_watertight(WatertightRay(ray), triangle.corners));
     ray.t_max = 2.0F;
     ray.t_min = std::nextafter(1.0F, 2.0F);
-    EXPECT_FALSE(occluded_watertight(WatertightRay(ray), v0, v1, v2));
+    EXPECT_FALSE(occluded_watertight(WatertightRay(ray), triangle.corners));
   }
 }
 

@@ -40,39 +40,33 @@ class IndirectLeaves {
 /// indices, vertices), which cost an incoherent ray more than the test itself. 36 bytes a reference.
 class PackedTriangleLeaves {
  public:
-  PackedTriangleLeaves(const TriangleMesh& mesh, std::span<const std::uint32_t> references) : corners_(references.size()) {
+  PackedTriangleLeaves(const TriangleMesh& mesh, std::span<const std::uint32_t> references) : corners_(references.size() + 1) {
     const std::span<const Vec3> vertices = mesh.vertices();
     const std::span<const Triangle> triangles = mesh.triangles();
     parallel_for(references.size(), 16384, [&](std::size_t slot) {
       const Triangle& triangle = triangles[references[slot]];
-      corners_[slot] = {vertices[triangle.x], vertices[triangle.y], vertices[triangle.z]};
+      corners_[slot] = TriangleCorners(vertices[triangle.x], vertices[triangle.y], vertices[triangle.z]);
     });
   }
 
-  [[nodiscard]] std::size_t memory() const { return corners_.size() * sizeof(Corners); }
+  [[nodiscard]] std::size_t memory() const { return corners_.size() * sizeof(TriangleCorners); }
 
   void prefetch(const std::uint32_t* /*references*/, std::uint32_t slot) const { __builtin_prefetch(corners_.data() + slot); }
 
   template <typename C>
   bool intersect(const TriangleMesh& /*mesh*/, const std::uint32_t* references, std::uint32_t slot, const WatertightRay& ray, Hit& hit,
                  C& /*counter*/) const {
-    const Corners& corners = corners_[slot];
-    return intersect_watertight(ray, corners.v0, corners.v1, corners.v2, references + slot, hit);
+    return intersect_watertight(ray, corners_[slot], references + slot, hit);
   }
 
   template <typename C>
   bool occluded(const TriangleMesh& /*mesh*/, const std::uint32_t* /*references*/, std::uint32_t slot, const WatertightRay& ray,
                 C& /*counter*/) const {
-    const Corners& corners = corners_[slot];
-    return occluded_watertight(ray, corners.v0, corners.v1, corners.v2);
+    return occluded_watertight(ray, corners_[slot]);
   }
 
  private:
-  struct Corners {
-    Vec3 v0, v1, v2;
-  };
-
-  HugeVector<Corners> corners_;
+  HugeVector<TriangleCorners> corners_;  // and one more, for the room that loading the last one takes
 };
 
 namespace detail {

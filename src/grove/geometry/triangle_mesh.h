@@ -56,14 +56,16 @@ class TriangleMesh {
   bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, Counter& /*counter*/) const {
     const Triangle& triangle = triangles_[i];
     const auto id = static_cast<std::uint32_t>(i);
-    return intersect_watertight(ray, vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z], &id, hit);
+    const SingleTriangle single(vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z]);
+    return intersect_watertight(ray, single.corners, &id, hit);
   }
 
   /// Whether triangle i is hit with t in [ray.t_min, ray.t_max].
   template <typename Counter>
   bool occluded(std::size_t i, const PreparedRay& ray, Counter& /*counter*/) const {
     const Triangle& triangle = triangles_[i];
-    return occluded_watertight(ray, vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z]);
+    const SingleTriangle single(vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z]);
+    return occluded_watertight(ray, single.corners);
   }
 
   /// Completes a traversal's hit: sets `geometry` and makes `primitive` count within it. O(log parts).

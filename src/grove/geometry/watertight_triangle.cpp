@@ -25,14 +25,15 @@ T larger(T a, T b) {
 // Keeps t within the stretch of the ray inside the triangle's bounds. The edge tests judge vertices that are off by the rounding of the
 // shear, at most 2 u |x| + 4 u |z| sideways, so the bounds are widened by 6 u times the largest coordinate relative to the ray's
 // origin; the traversals widen their boxes by more than that.
-double clamp_to_bounds(const Ray& ray, const Vec3& v0, const Vec3& v1, const Vec3& v2, double t) {
+double clamp_to_bounds(const Ray& ray, const TriangleCorners& corners, double t) {
   double lower[3];
   double upper[3];
   double largest = 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double o = ray.origin[axis];
-    lower[axis] = smaller(v0[axis], smaller(v1[axis], v2[axis])) - o;
-    upper[axis] = larger(v0[axis], larger(v1[axis], v2[axis])) - o;
+    const float* c = corners.coordinates[axis];
+    lower[axis] = smaller(c[0], smaller(c[1], c[2])) - o;
+    upper[axis] = larger(c[0], larger(c[1], c[2])) - o;
     largest = larger(largest, larger(-lower[axis], upper[axis]));
   }
   const double pad = 6.0 * kUnitRoundoff * largest;
@@ -62,11 +63,14 @@ WatertightRay::WatertightRay(const Ray& r) : ray(r) {
     kx = ky;
     ky = swap;
   }
-  shear_x = r.direction[kx] / r.direction[kz];
-  shear_y = r.direction[ky] / r.direction[kz];
+  origin_x = splat(r.origin[kx]);
+  origin_y = splat(r.origin[ky]);
+  origin_z = splat(r.origin[kz]);
+  shear_x = splat(r.direction[kx] / r.direction[kz]);
+  shear_y = splat(r.direction[ky] / r.direction[kz]);
 }
 
-bool watertight::test_edges_in_double(const float x[3], const float y[3], Edges& edges) {
+bool watertight::test_edges_in_double(Float4 x, Float4 y, Edges& edges) {
   const double ax = x[0], bx = x[1], cx = x[2];
   const double ay = y[0], by = y[1], cy = y[2];
   double u = cx * by - cy * bx;
@@ -80,24 +84,27 @@ bool watertight::test_edges_in_double(const float x[3], const float y[3], Edges&
   return true;
 }
 
-float watertight::hit_distance(const WatertightRay& ray, const Vec3& v0, const Vec3& v1, const Vec3& v2, const Edges& edges) {
+float watertight::hit_distance(const WatertightRay& ray, const TriangleCorners& corners, const Edges& edges) {
   using DVec3 = glm::dvec3;
   const DVec3 origin(ray.ray.origin);
   const DVec3 direction(ray.ray.direction);
-  const DVec3 p0 = DVec3(v0) - origin;
-  const DVec3 normal = glm::cross(DVec3(v1) - DVec3(v0), DVec3(v2) - DVec3(v0));
+  const DVec3 v0(corners.corner(0));
+  const DVec3 v1(corners.corner(1));
+  const DVec3 v2(corners.corner(2));
+  const DVec3 p0 = v0 - origin;
+  const DVec3 normal = glm::cross(v1 - v0, v2 - v0);
   const double facing = glm::dot(normal, direction);
   double t = glm::dot(normal, p0) / facing;
   if (!(std::fabs(t) < kInfinity)) {
     // Seen exactly edge-on: the plane says nothing. The vertices' depths, weighted by the edge functions, do.
     const int kz = ray.kz;
-    const DVec3 p1 = DVec3(v1) - origin;
-    const DVec3 p2 = DVec3(v2) - origin;
+    const DVec3 p1 = v1 - origin;
+    const DVec3 p2 = v2 - origin;
     const double sum = static_cast<double>(edges.u) + edges.v + edges.w;
     t = (edges.u * p0[kz] + edges.v * p1[kz] + edges.w * p2[kz]) / (sum * direction[kz]);
     if (!(std::fabs(t) < kInfinity)) return std::numeric_limits<float>::infinity();
   }
-  return static_cast<float>(clamp_to_bounds(ray.ray, v0, v1, v2, t));
+  return static_cast<float>(clamp_to_bounds(ray.ray, corners, t));
 }
 
 }  // namespace grove

@@ -13,11 +13,13 @@
 //   skips boxes by distance can never lose the hit (docs/decisions/0005-hits-that-cannot-be-lost.md).
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include "grove/geometry/hit.h"
 #include "grove/geometry/ray.h"
+#include "grove/math/float4.h"
 
 namespace grove {
 
@@ -27,8 +29,24 @@ struct WatertightRay {
 
   Ray ray;
   int kx = 0, ky = 1, kz = 2;  ///< kz: the axis along which the ray moves most; kx, ky keep the winding
-  float shear_x = 0.0F, shear_y = 0.0F;
+  /// In all lanes: the origin along kx, ky and kz, and how far kx and ky move with kz.
+  Float4 origin_x, origin_y, origin_z, shear_x, shear_y;
 };
+
+/// The corners of a triangle by axis: x of the three corners, then y, then z. 36 bytes. In an array, one more float must be readable behind
+/// the last: an axis is loaded as four.
+struct TriangleCorners {
+  float coordinates[3][3];
+
+  TriangleCorners() = default;
+  TriangleCorners(const Vec3& v0, const Vec3& v1, const Vec3& v2)
+      : coordinates{{v0.x, v1.x, v2.x}, {v0.y, v1.y, v2.y}, {v0.z, v1.z, v2.z}} {}
+
+  [[nodiscard]] Vec3 corner(int i) const { return {coordinates[0][i], coordinates[1][i], coordinates[2][i]}; }
+  [[nodiscard]] Float4 axis(int i) const { return load4(reinterpret_cast<const float*>(this) + 3 * static_cast<std::ptrdiff_t>(i)); }
+};
+
+static_assert(sizeof(TriangleCorners) == 36);
 
 namespace watertight {
 
@@ -37,41 +55,34 @@ struct Edges {
   float u, v, w;
 };
 
-/// Decides in double, for edge functions that came out as zero or overflowed. Returns whether the ray passes the triangle.
-[[nodiscard]] bool test_edges_in_double(const float x[3], const float y[3], Edges& edges);
+/// Decides in double, for edge functions that came out as zero or overflowed. Lanes 0 to 2 are the sheared corners. Returns whether the ray
+/// passes the triangle.
+[[nodiscard]] bool test_edges_in_double(Float4 x, Float4 y, Edges& edges);
 
 /// The distance of a hit along the ray; see the head of this file. Always finite or infinite, never NaN.
-[[nodiscard]] float hit_distance(const WatertightRay& ray, const Vec3& v0, const Vec3& v1, const Vec3& v2, const Edges& edges);
+[[nodiscard]] float hit_distance(const WatertightRay& ray, const TriangleCorners& corners, const Edges& edges);
 
-/// Whether the ray's line passes the triangle, edges and corners included.
-[[nodiscard]] inline bool test_edges(const WatertightRay& ray, const Vec3& v0, const Vec3& v1, const Vec3& v2, Edges& edges) {
-  const Vec3& o = ray.ray.origin;
-  const int kx = ray.kx;
-  const int ky = ray.ky;
-  const int kz = ray.kz;
-  const float az = v0[kz] - o[kz];
-  const float bz = v1[kz] - o[kz];
-  const float cz = v2[kz] - o[kz];
-  const float ax = (v0[kx] - o[kx]) - ray.shear_x * az;
-  const float ay = (v0[ky] - o[ky]) - ray.shear_y * az;
-  const float bx = (v1[kx] - o[kx]) - ray.shear_x * bz;
-  const float by = (v1[ky] - o[ky]) - ray.shear_y * bz;
-  const float cx = (v2[kx] - o[kx]) - ray.shear_x * cz;
-  const float cy = (v2[ky] - o[ky]) - ray.shear_y * cz;
-  const float u = cx * by - cy * bx;
-  const float v = ax * cy - ay * cx;
-  const float w = bx * ay - by * ax;
-  const bool any_negative = u < 0.0F || v < 0.0F || w < 0.0F;
-  const bool any_positive = u > 0.0F || v > 0.0F || w > 0.0F;
-  if (any_negative && any_positive) return false;
-  const float magnitude = std::fabs(u + v + w);
-  // Zero edges, overflow (NaN fails every comparison) and sums so small that their quotients lose digits are left to doubles.
-  if (u != 0.0F && v != 0.0F && w != 0.0F && magnitude >= 1e-30F && magnitude <= std::numeric_limits<float>::max()) {
-    edges = any_negative ? Edges{-u, -v, -w} : Edges{u, v, w};
+/// Whether the ray's line passes the triangle, edges and corners included. The three corners, then the three edges, share a register.
+[[nodiscard]] inline bool test_edges(const WatertightRay& ray, const TriangleCorners& corners, Edges& edges) {
+  const Float4 z = corners.axis(ray.kz) - ray.origin_z;
+  const Float4 x = (corners.axis(ray.kx) - ray.origin_x) - ray.shear_x * z;
+  const Float4 y = (corners.axis(ray.ky) - ray.origin_y) - ray.shear_y * z;
+  // Lane 0: edge from corner 1 to 2, the weight of corner 0; and so on around.
+  const Float4 next_x = __builtin_shufflevector(x, x, 1, 2, 0, 3);
+  const Float4 next_y = __builtin_shufflevector(y, y, 1, 2, 0, 3);
+  const Float4 last_x = __builtin_shufflevector(x, x, 2, 0, 1, 3);
+  const Float4 last_y = __builtin_shufflevector(y, y, 2, 0, 1, 3);
+  const Float4 edge = last_x * next_y - last_y * next_x;
+  const int negative = first_three_lanes(edge < splat(0.0F));
+  const int positive = first_three_lanes(edge > splat(0.0F));
+  if (negative != 0 && positive != 0) return false;
+  const float magnitude = std::fabs(edge[0] + edge[1] + edge[2]);
+  // Zero edges, overflow (NaN is neither negative nor positive) and sums so small that their quotients lose digits are left to doubles.
+  if ((negative | positive) == 7 && magnitude >= 1e-30F && magnitude <= std::numeric_limits<float>::max()) {
+    const Float4 weights = negative != 0 ? -edge : edge;
+    edges = {weights[0], weights[1], weights[2]};
     return true;
   }
-  const float x[3] = {ax, bx, cx};
-  const float y[3] = {ay, by, cy};
   return test_edges_in_double(x, y, edges);
 }
 
@@ -79,11 +90,10 @@ struct Edges {
 
 /// Tests one triangle. When it is hit within [ray.t_min, hit.t], closer than `hit` or as close with a lower id, replaces `hit` (t, u, v
 /// and primitive) and returns true. `primitive` points to the id, so that it is read only where it is needed.
-inline bool intersect_watertight(const WatertightRay& ray, const Vec3& v0, const Vec3& v1, const Vec3& v2, const std::uint32_t* primitive,
-                                 Hit& hit) {
+inline bool intersect_watertight(const WatertightRay& ray, const TriangleCorners& corners, const std::uint32_t* primitive, Hit& hit) {
   watertight::Edges edges;
-  if (!watertight::test_edges(ray, v0, v1, v2, edges)) return false;
-  const float t = watertight::hit_distance(ray, v0, v1, v2, edges);
+  if (!watertight::test_edges(ray, corners, edges)) return false;
+  const float t = watertight::hit_distance(ray, corners, edges);
   if (!(t >= ray.ray.t_min && t >= 0.0F && is_closer(t, *primitive, hit))) return false;
   const float sum = edges.u + edges.v + edges.w;
   hit.t = t;
@@ -94,11 +104,19 @@ inline bool intersect_watertight(const WatertightRay& ray, const Vec3& v0, const
 }
 
 /// Whether one triangle is hit with t in [ray.t_min, ray.t_max].
-inline bool occluded_watertight(const WatertightRay& ray, const Vec3& v0, const Vec3& v1, const Vec3& v2) {
+inline bool occluded_watertight(const WatertightRay& ray, const TriangleCorners& corners) {
   watertight::Edges edges;
-  if (!watertight::test_edges(ray, v0, v1, v2, edges)) return false;
-  const float t = watertight::hit_distance(ray, v0, v1, v2, edges);
+  if (!watertight::test_edges(ray, corners, edges)) return false;
+  const float t = watertight::hit_distance(ray, corners, edges);
   return t >= ray.ray.t_min && t >= 0.0F && t <= ray.ray.t_max && t < std::numeric_limits<float>::infinity();
 }
+
+/// A triangle's corners with the room that loading them takes, for testing one that is not in an array.
+struct SingleTriangle {
+  TriangleCorners corners;
+  float padding = 0.0F;
+
+  SingleTriangle(const Vec3& v0, const Vec3& v1, const Vec3& v2) : corners(v0, v1, v2) {}
+};
 
 }  // namespace grove

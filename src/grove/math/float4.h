@@ -36,6 +36,15 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
 #endif
 }
 
+/// Bits 0 to 2: whether lanes 0 to 2 of a comparison are true.
+[[nodiscard]] inline int first_three_lanes(Int4 mask) {
+#ifdef __SSE__
+  return __builtin_ia32_movmskps(reinterpret_cast<Float4>(mask)) & 7;
+#else
+  return (mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4);
+#endif
+}
+
 /// Unaligned.
 [[nodiscard]] inline Float4 load4(const float* p) {
   Float4 v;
