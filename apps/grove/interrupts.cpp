@@ -20,7 +20,7 @@ Interrupts::Interrupts() {
 Interrupts::~Interrupts() {
   is_ending_ = true;
   // Wakes the watcher, which then sees that it is to end.
-  pthread_kill(watcher_.native_handle(), SIGTERM);
+  pthread_kill(watcher_.native_handle(), SIGTERM);  // NOLINT(bugprone-bad-signal-to-kill-thread): blocked, and waited for
   watcher_.join();
 }
 

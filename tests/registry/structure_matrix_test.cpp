@@ -42,10 +42,6 @@ const std::vector<NamedGeometry>& geometries() {
   return all;
 }
 
-bool same_bits(const Hit& a, const Hit& b) {
-  return std::bit_cast<std::array<std::uint32_t, 6>>(a) == std::bit_cast<std::array<std::uint32_t, 6>>(b);
-}
-
 std::string describe(const Ray& ray) {
   char line[256];
   std::snprintf(line, sizeof line, "origin (%a %a %a) direction (%a %a %a) t [%a, %a]", ray.origin.x, ray.origin.y, ray.origin.z,

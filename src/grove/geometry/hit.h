@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 
@@ -28,6 +30,12 @@ struct Hit {
 };
 
 static_assert(sizeof(Hit) == 24);
+
+/// Bits, not values: +0 and -0 are different answers.
+[[nodiscard]] inline bool same_bits(const Hit& a, const Hit& b) {
+  using Words = std::array<std::uint32_t, 6>;
+  return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
+}
 
 /// The order of candidates during a traversal, when `hit.t` starts as the ray's t_max: nearer first, then the lower primitive id. A
 /// distance that is not finite is no hit.

@@ -35,7 +35,7 @@ Json machine_json(const Machine& machine) {
 }
 
 Json row_json(const ComparisonRow& row) {
-  const auto unless_missing = [](bool present, Json value) { return present ? value : Json(nullptr); };
+  const auto unless_missing = [](bool present, const Json& value) { return present ? value : Json(nullptr); };
   Json json{{"structure", row.structure},
             {"rays", name_of(row.rays)},
             {"ray_count", row.ray_count},

@@ -1,7 +1,6 @@
 #include "grove/lab/reference.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "grove/base/check.h"
 
@@ -29,8 +28,7 @@ std::uint64_t Reference::count_mismatches(std::span<const Hit> hits, std::size_t
       if (stride == 1) hits_[i] = hits[k];
       continue;
     }
-    // Bits, not values: +0 and -0 are different answers.
-    if (std::memcmp(&hits_[i], &hits[k], sizeof(Hit)) != 0) ++count;
+    if (!same_bits(hits_[i], hits[k])) ++count;
   }
   if (stride == 1) is_complete_ = true;
   return count;

@@ -56,8 +56,10 @@ std::vector<Ray> primary_rays(const Camera& camera, const WorkloadSettings& sett
   std::vector<Ray> rays(settings.ray_count);
   parallel_for(rays.size(), kGrain, [&](std::size_t i) {
     Random random = generator(RayKind::primary, settings.seed, i);
-    const float x = static_cast<float>(i % side) + random.next_float();
-    const float y = static_cast<float>(i / side) + random.next_float();
+    const std::size_t row = i / side;
+    const std::size_t column = i % side;
+    const float x = static_cast<float>(column) + random.next_float();
+    const float y = static_cast<float>(row) + random.next_float();
     rays[i] = camera_rays.ray({x, y}, {0.5F, 0.5F});
   });
   return rays;
