@@ -50,8 +50,8 @@ struct GgxAlbedo {
 /// What a rough boundary between two dielectrics reflects and lets through in single scattering, from its outer side (index 0, where the
 /// light is in the thinner medium) and its inner side (index 1). Divided by their sum they lose nothing.
 struct DielectricAlbedo {
-  /// `ior` of the inner side over the outer, above 0. Takes some tens of milliseconds.
-  explicit DielectricAlbedo(float ior);
+  /// `index` is that of the inner side over the outer, above 0. Takes some tens of milliseconds.
+  explicit DielectricAlbedo(float index);
 
   float ior;
   std::array<AlbedoTable, 2> reflected;

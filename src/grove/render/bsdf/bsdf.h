@@ -14,8 +14,10 @@ class Bsdf {
                              CoatedDiffuseBsdf, CoatedConductorBsdf, MetallicRoughnessBsdf>;
 
   Bsdf() = default;
+  // Implicit, since a model is a Bsdf.
   template <typename M>
-  requires std::constructible_from<Model, M> Bsdf(const M& model) : model_(model) {}  // a model is a Bsdf
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  requires std::constructible_from<Model, M> Bsdf(const M& model) : model_(model) {}
 
   [[nodiscard]] BsdfValue evaluate(const Vec3& wo, const Vec3& wi) const {
     return std::visit([&](const auto& model) { return model.evaluate(wo, wi); }, model_);

@@ -46,8 +46,9 @@ EnvironmentLight::EnvironmentLight(const Environment& environment, std::shared_p
     for (std::uint32_t x = 0; x < width; ++x) {
       float light = 0.0F;
       for (int corner = 0; corner < 9; ++corner) {
-        const Vec2 place(static_cast<float>(x) + 0.5F * static_cast<float>(corner % 3),
-                         static_cast<float>(y) + 0.5F * static_cast<float>(corner / 3));
+        const int row = corner / 3;
+        const int column = corner % 3;
+        const Vec2 place(static_cast<float>(x) + 0.5F * static_cast<float>(column), static_cast<float>(y) + 0.5F * static_cast<float>(row));
         light += luminance(lookup({place.x / static_cast<float>(width), place.y / static_cast<float>(height)}));
       }
       if (!std::isfinite(light)) light = 0.0F;

@@ -38,10 +38,10 @@ Vec3 octahedral_direction(const Vec2& uv) {
 
 }  // namespace
 
-Vec2 environment_uv(EnvironmentMapping mapping, const Vec3& w) {
-  if (mapping == EnvironmentMapping::octahedral) return octahedral_uv(w);
-  const float azimuth = w.x == 0.0F && w.z == 0.0F ? 0.0F : std::atan2(w.x, -w.z);
-  return {0.5F + azimuth / (2.0F * kPi), std::acos(std::clamp(w.y, -1.0F, 1.0F)) / kPi};
+Vec2 environment_uv(EnvironmentMapping mapping, const Vec3& direction) {
+  if (mapping == EnvironmentMapping::octahedral) return octahedral_uv(direction);
+  const float azimuth = direction.x == 0.0F && direction.z == 0.0F ? 0.0F : std::atan2(direction.x, -direction.z);
+  return {0.5F + azimuth / (2.0F * kPi), std::acos(std::clamp(direction.y, -1.0F, 1.0F)) / kPi};
 }
 
 Vec3 environment_direction(EnvironmentMapping mapping, const Vec2& uv) {
@@ -52,9 +52,9 @@ Vec3 environment_direction(EnvironmentMapping mapping, const Vec2& uv) {
   return {sine * std::sin(azimuth), std::cos(polar), -sine * std::cos(azimuth)};
 }
 
-float environment_area_per_solid_angle(EnvironmentMapping mapping, const Vec3& w) {
+float environment_area_per_solid_angle(EnvironmentMapping mapping, const Vec3& direction) {
   if (mapping == EnvironmentMapping::octahedral) return 1.0F / (4.0F * kPi);
-  const float sine = std::sqrt(w.x * w.x + w.z * w.z);
+  const float sine = std::sqrt(direction.x * direction.x + direction.z * direction.z);
   return 1.0F / (2.0F * kPi * kPi * sine);
 }
 

@@ -40,7 +40,7 @@ class SurfaceTable {
   };
 
   [[nodiscard]] SurfacePoint triangle_point(const InstanceView& instance, const PartView& part, std::uint32_t primitive,
-                                            const Vec2& uv) const;
+                                            const Vec2& barycentric) const;
   [[nodiscard]] SurfacePoint sphere_point(const InstanceView& instance, const PartView& part, std::uint32_t primitive, const Vec3& normal,
                                           const Vec2& uv) const;
   static void to_world(const InstanceView& instance, float object_magnitude, SurfacePoint& point);

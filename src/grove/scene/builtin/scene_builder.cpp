@@ -70,7 +70,7 @@ void SceneBuilder::add_sun(const Vec3& direction, const Vec3& irradiance) {
 }
 
 Scene SceneBuilder::finish(Camera camera, FilmRequest film) {
-  const auto place = [&](const char* name, auto geometry, std::vector<Part> parts) {
+  const auto place = [&](const char* name, auto geometry, std::vector<Part>&& parts) {
     if (parts.empty()) return;
     const auto id = static_cast<std::uint32_t>(scene_.objects.size());
     scene_.objects.push_back({.name = name, .geometry = std::move(geometry), .parts = std::move(parts)});

@@ -40,8 +40,8 @@ class DirectiveReader {
 
   // Arguments of the directive being read.
   std::string quoted_argument(std::string_view what);
-  template <std::size_t Count>
-  std::array<double, Count> number_arguments();
+  template <std::size_t kCount>
+  std::array<double, kCount> number_arguments();
   ParameterList parameters(AttributeTarget target);
   ParameterList plain_parameters();
 

@@ -126,7 +126,7 @@ class LightBuilder {
     } else if (illuminance > 0.0F) {
       environment.radiance *= illuminance / kPi;
     }
-    add_environment(std::move(environment), p.place());
+    add_environment(environment, p.place());
   }
 
   void set_image(Environment& environment, const LightDirective& light, const std::string& file, float illuminance) {

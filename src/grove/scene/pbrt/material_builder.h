@@ -23,7 +23,7 @@ class MaterialBuilder {
   [[nodiscard]] bool is_textured(std::uint32_t material) const { return textured_[material]; }
 
  private:
-  std::uint32_t build(std::uint32_t directive);
+  std::uint32_t build(std::uint32_t id);
   std::uint32_t add(Material m);
   Material make(const MaterialDirective& directive);
   void make_diffuse(Material& m, const ParameterList& p);

@@ -51,8 +51,9 @@ void set_pixel(Image& image, std::size_t index, const Vec3& rgb) {
 }
 
 Vec2 pixel_centre(std::size_t index, std::uint32_t size) {
-  return {(static_cast<float>(index % size) + 0.5F) / static_cast<float>(size),
-          (static_cast<float>(index / size) + 0.5F) / static_cast<float>(size)};
+  const std::size_t row = index / size;
+  const std::size_t column = index % size;
+  return {(static_cast<float>(column) + 0.5F) / static_cast<float>(size), (static_cast<float>(row) + 0.5F) / static_cast<float>(size)};
 }
 
 }  // namespace

@@ -11,10 +11,10 @@ namespace grove::pbrt {
 
 /// An image in latitude and longitude (u = azimuth / 2 pi from +x toward +y, v = polar angle / pi from +z; pbrt-v3) resampled to a square
 /// equal-area octahedral one with about as many pixels.
-[[nodiscard]] Image equirectangular_to_octahedral(const Image& image);
+[[nodiscard]] Image equirectangular_to_octahedral(const Image& source);
 
 /// RGB floats, 8-bit values decoded from sRGB.
-[[nodiscard]] Image to_linear_floats(const Image& image);
+[[nodiscard]] Image to_linear_floats(const Image& source);
 
 /// Luminance that a patch facing +z receives from an octahedral image of radiance (floats).
 [[nodiscard]] float upper_illuminance(const Image& image);

@@ -147,9 +147,9 @@ std::vector<float> spectrum_pairs(const Parameter& p, const Context& context) {
 
 }  // namespace
 
-Vec3 spectrum_to_rgb(std::span<const float> pairs, SpectrumUse use) {
+Vec3 spectrum_to_rgb(std::span<const float> wavelengths_and_values, SpectrumUse use) {
   Vec3 one;
-  const Vec3 xyz = integrate([&](float w) { return piecewise_linear(pairs, w); }, one);
+  const Vec3 xyz = integrate([&](float w) { return piecewise_linear(wavelengths_and_values, w); }, one);
   if (use == SpectrumUse::illuminant) return with_luminance_one(xyz);
   // Each channel against its own white, so that a constant spectrum is exactly grey.
   return limit(xyz_to_rgb(xyz) / xyz_to_rgb(one), use);

@@ -31,8 +31,8 @@ class TextureBuilder {
   /// The same for a number.
   ScalarParameter scalar_parameter(const ParameterList& parameters, std::string_view name, float otherwise);
 
-  /// A texture with channel 0 of another raised to a power; exact but for `mix`, where the operands are raised.
-  std::uint32_t raised_to_power(std::uint32_t texture, float exponent);
+  /// A texture with channel 0 of texture `id` raised to a power; exact but for `mix`, where the operands are raised.
+  std::uint32_t raised_to_power(std::uint32_t id, float exponent);
 
   /// An image by the name that the scene file has for it, as a texture with v upward; kNoTexture with a warning when it cannot be read.
   std::uint32_t image_texture(const std::string& file, bool srgb, const Place& place);

@@ -4,19 +4,19 @@
 namespace grove::pbrt {
 
 // So many numbers, in brackets or not.
-template <std::size_t Count>
-std::array<double, Count> DirectiveReader::number_arguments() {
+template <std::size_t kCount>
+std::array<double, kCount> DirectiveReader::number_arguments() {
   const bool bracketed = tokens_->peek().kind == TokenKind::open_bracket;
   if (bracketed) tokens_->next();
-  std::array<double, Count> numbers{};
+  std::array<double, kCount> numbers{};
   for (double& number : numbers) {
     const Token token = tokens_->next();
     const auto value = token.kind == TokenKind::word ? parse_float(token.text) : std::nullopt;
-    if (!value) place_.fail(std::string(directive_.text) + " takes " + std::to_string(Count) + " numbers");
+    if (!value) place_.fail(std::string(directive_.text) + " takes " + std::to_string(kCount) + " numbers");
     number = double{*value};
   }
   if (bracketed && tokens_->next().kind != TokenKind::close_bracket)
-    place_.fail(std::string(directive_.text) + " takes " + std::to_string(Count) + " numbers, then ]");
+    place_.fail(std::string(directive_.text) + " takes " + std::to_string(kCount) + " numbers, then ]");
   return numbers;
 }
 
