@@ -1,0 +1,15 @@
+#pragma once
+
+// The forms in which the family `bvh` is traced. A source each, so that each compiles its instances once.
+
+#include <memory>
+
+#include "grove/registry/registry.h"
+#include "grove/registry/spec.h"
+
+namespace grove {
+
+/// Two children a node, axis-aligned boxes.
+[[nodiscard]] std::unique_ptr<Accelerator> build_binary_bvh(const Spec& spec, const GeometryPointer& geometry);
+
+}  // namespace grove

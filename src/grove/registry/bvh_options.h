@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "grove/registry/spec.h"
+
+namespace grove {
+
+/// What a spec of the family `bvh` asks for.
+struct BvhOptions {
+  explicit BvhOptions(const Spec& spec);
+
+  std::string split;
+  std::string bounds;
+  int arity = 2;
+  std::uint32_t leaf_size = 8;
+
+  /// Whether later passes decide which references share a leaf, so that the builder must part them all.
+  [[nodiscard]] bool leaves_are_decided_later() const { return arity > 2 || bounds != "aabb"; }
+};
+
+}  // namespace grove
