@@ -1,9 +1,11 @@
 #include "grove/geometry/watertight_triangle.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
-
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 
 namespace grove {
 namespace {
@@ -11,44 +13,42 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Half a unit in the last place of 1: the relative error of one float operation.
 constexpr double kUnitRoundoff = 0x1p-24;
+// How far the plane's distance may be from the point that the edge tests found, relative to the largest coordinate: as much again as
+// the rounding of the shear. The traversals widen their boxes by the sum of both and more.
+constexpr double kDepthTolerance = 6.0 * kUnitRoundoff;
 
-// One instruction each, unlike std::fmin and std::fmax; no argument is NaN here.
-template <typename T>
-T smaller(T a, T b) {
-  return a < b ? a : b;
-}
-template <typename T>
-T larger(T a, T b) {
-  return a > b ? a : b;
+using DVec3 = glm::dvec3;
+
+// The edge functions of a triangle whose sheared corners are given, as weights of the corners.
+DVec3 edge_weights(const DVec3& x, const DVec3& y) {
+  return {x[2] * y[1] - x[1] * y[2], x[0] * y[2] - x[2] * y[0], x[1] * y[0] - x[0] * y[1]};
 }
 
-// Keeps t within the stretch of the ray inside the triangle's bounds. The edge tests judge vertices that are off by the rounding of the
-// shear, at most 2 u |x| + 4 u |z| sideways, so the bounds are widened by 6 u times the largest coordinate relative to the ray's
-// origin; the traversals widen their boxes by more than that.
-double clamp_to_bounds(const Ray& ray, const TriangleCorners& corners, double t) {
-  double lower[3];
-  double upper[3];
-  double largest = 0.0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double o = ray.origin[axis];
-    const float* c = corners.coordinates[axis];
-    lower[axis] = smaller(c[0], smaller(c[1], c[2])) - o;
-    upper[axis] = larger(c[0], larger(c[1], c[2])) - o;
-    largest = larger(largest, larger(-lower[axis], upper[axis]));
-  }
-  const double pad = 6.0 * kUnitRoundoff * largest;
-  double near = -kInfinity;
-  double far = kInfinity;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double d = ray.direction[axis];
-    if (d == 0.0) continue;
-    const double inverse = 1.0 / d;
-    const double a = (lower[axis] - pad) * inverse;
-    const double b = (upper[axis] + pad) * inverse;
-    near = larger(near, smaller(a, b));
-    far = smaller(far, larger(a, b));
-  }
-  return larger(near, smaller(far, t));
+DVec3 to_double(Float4 v) {
+  return {v[0], v[1], v[2]};
+}
+
+// The largest coordinate of the corners relative to the origin.
+double largest_coordinate(const DVec3& p0, const DVec3& p1, const DVec3& p2) {
+  const DVec3 largest = glm::max(glm::max(glm::abs(p0), glm::abs(p1)), glm::abs(p2));
+  return std::max({largest.x, largest.y, largest.z});
+}
+
+// The ray against the triangle without the rounding of the shear: the distance (times the largest component of the direction) where it
+// passes the triangle, or NaN where it passes outside or doubles do not suffice to tell.
+double exact_depth(const WatertightRay& ray, const DVec3& p0, const DVec3& p1, const DVec3& p2, double tolerance) {
+  const double shear_x = static_cast<double>(ray.ray.direction[ray.kx]) / ray.ray.direction[ray.kz];
+  const double shear_y = static_cast<double>(ray.ray.direction[ray.ky]) / ray.ray.direction[ray.kz];
+  const DVec3 z(p0[ray.kz], p1[ray.kz], p2[ray.kz]);
+  const DVec3 x = DVec3(p0[ray.kx], p1[ray.kx], p2[ray.kx]) - shear_x * z;
+  const DVec3 y = DVec3(p0[ray.ky], p1[ray.ky], p2[ray.ky]) - shear_y * z;
+  const DVec3 edges = edge_weights(x, y);
+  const double sum = edges.x + edges.y + edges.z;
+  const DVec3 weights = edges / sum;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  if (!(weights.x >= 0.0 && weights.y >= 0.0 && weights.z >= 0.0)) return kNan;
+  const bool on_the_ray = std::fabs(glm::dot(weights, x)) <= tolerance && std::fabs(glm::dot(weights, y)) <= tolerance;
+  return on_the_ray ? glm::dot(weights, z) : kNan;
 }
 
 }  // namespace
@@ -70,41 +70,44 @@ WatertightRay::WatertightRay(const Ray& r) : ray(r) {
   shear_y = splat(r.direction[ky] / r.direction[kz]);
 }
 
-bool watertight::test_edges_in_double(Float4 x, Float4 y, Edges& edges) {
-  const double ax = x[0], bx = x[1], cx = x[2];
-  const double ay = y[0], by = y[1], cy = y[2];
-  double u = cx * by - cy * bx;
-  double v = ax * cy - ay * cx;
-  double w = bx * ay - by * ax;
-  if (!((u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0))) return false;
-  const double sum = u + v + w;
+bool watertight::test_edges_in_double(const ShearedCorners& sheared, Edges& edges) {
+  const DVec3 weights = edge_weights(to_double(sheared.x), to_double(sheared.y));
+  const bool all_positive = weights.x >= 0.0 && weights.y >= 0.0 && weights.z >= 0.0;
+  const bool all_negative = weights.x <= 0.0 && weights.y <= 0.0 && weights.z <= 0.0;
+  if (!all_positive && !all_negative) return false;
+  const double sum = weights.x + weights.y + weights.z;
   if (sum == 0.0) return false;  // the triangle is a line or a point as seen from the ray
   // Normalised, so that they are good floats at any scale.
-  edges = {static_cast<float>(u / sum), static_cast<float>(v / sum), static_cast<float>(w / sum)};
+  edges = {static_cast<float>(weights.x / sum), static_cast<float>(weights.y / sum), static_cast<float>(weights.z / sum)};
   return true;
 }
 
-float watertight::hit_distance(const WatertightRay& ray, const TriangleCorners& corners, const Edges& edges) {
-  using DVec3 = glm::dvec3;
+float watertight::hit_distance(const WatertightRay& ray, const TriangleCorners& corners, const ShearedCorners& sheared) {
   const DVec3 origin(ray.ray.origin);
   const DVec3 direction(ray.ray.direction);
-  const DVec3 v0(corners.corner(0));
-  const DVec3 v1(corners.corner(1));
-  const DVec3 v2(corners.corner(2));
-  const DVec3 p0 = v0 - origin;
-  const DVec3 normal = glm::cross(v1 - v0, v2 - v0);
-  const double facing = glm::dot(normal, direction);
-  double t = glm::dot(normal, p0) / facing;
-  if (!(std::fabs(t) < kInfinity)) {
-    // Seen exactly edge-on: the plane says nothing. The vertices' depths, weighted by the edge functions, do.
-    const int kz = ray.kz;
-    const DVec3 p1 = v1 - origin;
-    const DVec3 p2 = v2 - origin;
-    const double sum = static_cast<double>(edges.u) + edges.v + edges.w;
-    t = (edges.u * p0[kz] + edges.v * p1[kz] + edges.w * p2[kz]) / (sum * direction[kz]);
-    if (!(std::fabs(t) < kInfinity)) return std::numeric_limits<float>::infinity();
+  const DVec3 p0 = DVec3(corners.corner(0)) - origin;
+  const DVec3 p1 = DVec3(corners.corner(1)) - origin;
+  const DVec3 p2 = DVec3(corners.corner(2)) - origin;
+  const DVec3 normal = glm::cross(p1 - p0, p2 - p0);
+  const double forward = direction[ray.kz];
+  const double plane_depth = glm::dot(normal, p0) / glm::dot(normal, direction) * forward;
+
+  // The depth of the point of the triangle that the edge tests found, which is near the ray whatever the angle: in double the edge
+  // functions of float corners are exact but for their last rounding.
+  const DVec3 edges = edge_weights(to_double(sheared.x), to_double(sheared.y));
+  const double edge_depth = glm::dot(edges, to_double(sheared.z)) / (edges.x + edges.y + edges.z);
+  const double tolerance = kDepthTolerance * largest_coordinate(p0, p1, p2);
+  if (std::fabs(plane_depth - edge_depth) <= tolerance) return static_cast<float>(plane_depth / forward);
+
+  // Almost edge-on: the rounding of the shear, sideways, has become a long way along the plane.
+  double depth = exact_depth(ray, p0, p1, p2, tolerance);
+  if (!(std::fabs(depth) < kInfinity)) {
+    depth = edge_depth;
+    if (plane_depth > edge_depth) depth = edge_depth + tolerance;
+    if (plane_depth < edge_depth) depth = edge_depth - tolerance;
   }
-  return static_cast<float>(clamp_to_bounds(ray.ray, corners, t));
+  const double t = depth / forward;
+  return std::fabs(t) < kInfinity ? static_cast<float>(t) : std::numeric_limits<float>::infinity();
 }
 
 }  // namespace grove

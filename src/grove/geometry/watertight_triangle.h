@@ -9,8 +9,8 @@
 //   exact one unless it comes out as zero; then (and when the products overflow) it is taken again in double, where the products
 //   are exact. Triangles that share an edge therefore always agree.
 // - The paper's t, an interpolation of the vertices' depths with float weights, can be far off beside large walls. Here t comes from the
-//   triangle's plane in double, and is kept within the stretch of the ray that lies in the triangle's bounds, so that a traversal that
-//   skips boxes by distance can never lose the hit (docs/decisions/0005-hits-that-cannot-be-lost.md).
+//   triangle's plane in double, and is kept where the ray passes the triangle, so that a traversal that skips boxes by distance can
+//   never lose the hit, also where the boxes hold pieces of triangles (docs/decisions/0005-hits-that-cannot-be-lost.md).
 
 #include <cmath>
 #include <cstddef>
@@ -55,18 +55,23 @@ struct Edges {
   float u, v, w;
 };
 
-/// Decides in double, for edge functions that came out as zero or overflowed. Lanes 0 to 2 are the sheared corners. Returns whether the ray
-/// passes the triangle.
-[[nodiscard]] bool test_edges_in_double(Float4 x, Float4 y, Edges& edges);
+/// The corners as the ray sees them, in lanes 0 to 2: relative to its origin, sheared so that it is the z axis.
+struct ShearedCorners {
+  Float4 x, y, z;
+};
+
+/// Decides in double, for edge functions that came out as zero or overflowed. Returns whether the ray passes the triangle.
+[[nodiscard]] bool test_edges_in_double(const ShearedCorners& sheared, Edges& edges);
 
 /// The distance of a hit along the ray; see the head of this file. Always finite or infinite, never NaN.
-[[nodiscard]] float hit_distance(const WatertightRay& ray, const TriangleCorners& corners, const Edges& edges);
+[[nodiscard]] float hit_distance(const WatertightRay& ray, const TriangleCorners& corners, const ShearedCorners& sheared);
 
 /// Whether the ray's line passes the triangle, edges and corners included. The three corners, then the three edges, share a register.
-[[nodiscard]] inline bool test_edges(const WatertightRay& ray, const TriangleCorners& corners, Edges& edges) {
+[[nodiscard]] inline bool test_edges(const WatertightRay& ray, const TriangleCorners& corners, ShearedCorners& sheared, Edges& edges) {
   const Float4 z = corners.axis(ray.kz) - ray.origin_z;
   const Float4 x = (corners.axis(ray.kx) - ray.origin_x) - ray.shear_x * z;
   const Float4 y = (corners.axis(ray.ky) - ray.origin_y) - ray.shear_y * z;
+  sheared = {x, y, z};
   // Lane 0: edge from corner 1 to 2, the weight of corner 0; and so on around.
   const Float4 next_x = __builtin_shufflevector(x, x, 1, 2, 0, 3);
   const Float4 next_y = __builtin_shufflevector(y, y, 1, 2, 0, 3);
@@ -83,7 +88,7 @@ struct Edges {
     edges = {weights[0], weights[1], weights[2]};
     return true;
   }
-  return test_edges_in_double(x, y, edges);
+  return test_edges_in_double(sheared, edges);
 }
 
 }  // namespace watertight
@@ -91,9 +96,10 @@ struct Edges {
 /// Tests one triangle. When it is hit within [ray.t_min, hit.t], closer than `hit` or as close with a lower id, replaces `hit` (t, u, v
 /// and primitive) and returns true. `primitive` points to the id, so that it is read only where it is needed.
 inline bool intersect_watertight(const WatertightRay& ray, const TriangleCorners& corners, const std::uint32_t* primitive, Hit& hit) {
+  watertight::ShearedCorners sheared;
   watertight::Edges edges;
-  if (!watertight::test_edges(ray, corners, edges)) return false;
-  const float t = watertight::hit_distance(ray, corners, edges);
+  if (!watertight::test_edges(ray, corners, sheared, edges)) return false;
+  const float t = watertight::hit_distance(ray, corners, sheared);
   if (!(t >= ray.ray.t_min && t >= 0.0F && is_closer(t, *primitive, hit))) return false;
   const float sum = edges.u + edges.v + edges.w;
   hit.t = t;
@@ -105,9 +111,10 @@ inline bool intersect_watertight(const WatertightRay& ray, const TriangleCorners
 
 /// Whether one triangle is hit with t in [ray.t_min, ray.t_max].
 inline bool occluded_watertight(const WatertightRay& ray, const TriangleCorners& corners) {
+  watertight::ShearedCorners sheared;
   watertight::Edges edges;
-  if (!watertight::test_edges(ray, corners, edges)) return false;
-  const float t = watertight::hit_distance(ray, corners, edges);
+  if (!watertight::test_edges(ray, corners, sheared, edges)) return false;
+  const float t = watertight::hit_distance(ray, corners, sheared);
   return t >= ray.ray.t_min && t >= 0.0F && t <= ray.ray.t_max && t < std::numeric_limits<float>::infinity();
 }
 

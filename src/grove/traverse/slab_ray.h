@@ -3,8 +3,10 @@
 // Conservative ray-box tests: a box is never skipped that holds a hit of one of the primitive tests.
 //
 // The slab test (Kay and Kajiya 1986) of a box that is widened on all sides by `pad`, which covers both the rounding of this test and the
-// distance by which the watertight triangle test may be off sideways (at most 6 u of the largest coordinate relative to the
-// origin, u = 2^-24; with 3 u for the slabs and 1 u for rounding t that is 10 u, taken here as 16 u). The boxes stay as they
+// distance by which a hit of the watertight triangle test may be off its triangle: at most 7 u of the largest coordinate relative to the
+// origin for the point that the edge tests find and 6 u for the distance along the ray (u = 2^-24); with 3 u for the slabs and 1 u for
+// rounding t that is 17 u, taken here as 24 u. A hit is that near to the triangle itself and not only to its bounds, so the same
+// holds for boxes around pieces of triangles. The boxes stay as they
 // are: the origin is moved instead, once for near planes and once for far planes, so the widening costs nothing per box (Woop et
 // al. 2013, section 4, with the bounds of the whole structure in place of those of each node).
 
@@ -33,7 +35,7 @@ struct SlabRay {
       largest = largest > below ? largest : below;
       largest = largest > above ? largest : above;
     }
-    const float pad = 0x1p-20F * largest;
+    const float pad = 0x1.8p-20F * largest;
     for (int axis = 0; axis < 3; ++axis) {
       const float o = ray.origin[axis];
       const float d = ray.direction[axis];
