@@ -3,6 +3,7 @@
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/parallel_sort.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -45,6 +46,12 @@ void parallel_chunks(std::size_t count, std::size_t chunk, const Body& body) {
 template <typename First, typename Second>
 void parallel_invoke(const First& first, const Second& second) {
   oneapi::tbb::parallel_invoke(first, second);
+}
+
+/// Sorts a vector whose items all differ under `less`, so that the result does not depend on the number of threads.
+template <typename T, typename Less>
+void parallel_sort(std::vector<T>& items, const Less& less) {
+  oneapi::tbb::parallel_sort(items.begin(), items.end(), less);
 }
 
 }  // namespace grove

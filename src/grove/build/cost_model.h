@@ -11,11 +11,15 @@ namespace grove {
 
 struct Bvh2;
 
+/// How the cost of a split counts what lies inside its subsets (SubsetTime in build/split.h).
+enum class SplitCost : std::uint8_t { standard, equation_2 };
+
 /// Relative times of the steps of a traversal. Only their ratio matters to a builder. The defaults are measured for triangles: at 0.35 hierarchies
 /// trace faster than at 0.5, 0.8 or 1, and have fewer nodes (docs/performance.md).
 struct CostModel {
   double traversal = 1.0;      ///< stepping through one interior node (both children's boxes)
   double intersection = 0.35;  ///< testing one primitive
+  SplitCost split_cost = SplitCost::standard;
 };
 
 /// Half the surface area after dividing all lengths by the largest side of a whole scene, so that neither huge nor tiny coordinates

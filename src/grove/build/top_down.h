@@ -1,7 +1,5 @@
 #pragma once
 
-// The top-down driver of binary hierarchies: it owns recursion, tasks, depth and memory; the split comes from build/splits.
-
 #include <cstdint>
 
 #include "grove/accel/bvh2.h"
@@ -10,16 +8,29 @@
 
 namespace grove {
 
+/// The heuristics of the top-down builders that leave primitives whole (build/splits).
+enum class ObjectSplit : std::uint8_t { binned, sweep, object_median, spatial_median };
+
 struct TopDownSettings {
+  ObjectSplit split = ObjectSplit::binned;
   /// Ranges of at most this many references may become leaves; they do where the cost model says so. At least 1.
   std::uint32_t leaf_size = 8;
   CostModel cost;
+  /// Spatial splits only: how many references may be added, relative to the primitives.
+  double duplication_budget = 1.0;
+  /// Spatial splits only: they are tried where the overlap of the best object split has this share of the root's area (alpha in Stich et al. 2009).
+  double least_overlap = 1e-5;
 };
 
-/// Builds a binary hierarchy by binned surface-area splits. Large ranges are binned and partitioned in parallel in chunks of fixed size,
-/// smaller ones become tasks of their own, so the result is the same, bit for bit, for any number of threads. Where no
-/// split parts the centres, or the depth comes near its limit, ranges are halved, which bounds depth by Bvh2::kMaxDepth and time by
-/// O(n log n) for any input. Peak memory: 68 bytes a reference and the hierarchy twice.
-[[nodiscard]] Bvh2 build_binned(ReferenceList list, const TopDownSettings& settings);
+/// Builds a binary hierarchy from the root down. The result is the same, bit for bit, for any number of threads. Where no split parts the
+/// references, or the depth comes near its limit, ranges are halved, which bounds depth by Bvh2::kMaxDepth and time by
+/// O(n log n) for any input (sweep: O(n log^2 n)). Peak memory: 68 bytes a reference and the hierarchy twice.
+[[nodiscard]] Bvh2 build_top_down(ReferenceList list, const TopDownSettings& settings);
+
+/// Marks places of Bvh2::references that hold none.
+inline constexpr std::uint32_t kNoReference = 0xffffffffU;
+
+/// Removes the places marked kNoReference and adapts the leaves. No leaf may contain one. O(nodes + references), parallel.
+void close_reference_gaps(Bvh2& bvh);
 
 }  // namespace grove

@@ -6,6 +6,7 @@ namespace grove {
 
 BvhOptions::BvhOptions(const Spec& spec)
     : split(spec.value("split")),
+      cost(spec.value("cost")),
       bounds(spec.value("bounds")),
       arity(std::stoi(spec.value("arity"))),
       leaf_size(static_cast<std::uint32_t>(spec.number("leaf-size"))) {}
@@ -14,7 +15,13 @@ StructureFamily describe_bvh() {
   return {"bvh",
           "bounding volume hierarchy",
           {
-              {"split", {"binned"}, 0, 0, 0, "how a set is parted: binned surface-area heuristic (Wald 2007)"},
+              {"split",
+               {"binned", "sweep", "object-median", "spatial-median"},
+               0,
+               0,
+               0,
+               "how a set is parted: surface-area heuristic over bins or over all object splits, equal counts, equal volumes"},
+              {"cost", {"standard", "equation-2"}, 0, 0, 0, "the surface-area cost of a split: today's form, or the review's equation 2"},
               {"bounds", {"aabb"}, 0, 0, 0, "the bounding volume: axis-aligned boxes"},
               {"arity", {"2"}, 0, 0, 0, "children of an interior node"},
               {"leaf-size", {}, 1, 64, 8, "most primitives in a leaf; the cost model decides below it"},

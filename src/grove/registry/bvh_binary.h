@@ -2,6 +2,9 @@
 
 // The binary hierarchy that all forms of the family `bvh` start from.
 
+#include <map>
+#include <string_view>
+
 #include "grove/build/primitive_reference.h"
 #include "grove/build/top_down.h"
 #include "grove/registry/bvh_options.h"
@@ -11,9 +14,15 @@ namespace grove {
 /// Builds the binary hierarchy over axis-aligned boxes that `options` ask for, before it is widened or bounded otherwise.
 template <Geometry G>
 [[nodiscard]] Bvh2 build_binary_hierarchy(const G& geometry, const BvhOptions& options) {
+  static const std::map<std::string_view, ObjectSplit> kObjectSplits = {{"binned", ObjectSplit::binned},
+                                                                        {"sweep", ObjectSplit::sweep},
+                                                                        {"object-median", ObjectSplit::object_median},
+                                                                        {"spatial-median", ObjectSplit::spatial_median}};
   TopDownSettings settings;
+  settings.split = kObjectSplits.at(options.split);
+  if (options.cost == "equation-2") settings.cost.split_cost = SplitCost::equation_2;
   settings.leaf_size = options.leaves_are_decided_later() ? 1 : options.leaf_size;
-  return build_binned(list_references(geometry), settings);
+  return build_top_down(list_references(geometry), settings);
 }
 
 }  // namespace grove

@@ -12,6 +12,7 @@ struct BvhOptions {
   explicit BvhOptions(const Spec& spec);
 
   std::string split;
+  std::string cost;
   std::string bounds;
   int arity = 2;
   std::uint32_t leaf_size = 8;

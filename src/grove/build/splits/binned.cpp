@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
+
+#include "grove/base/parallel.h"
 
 namespace grove {
-namespace {
-
-float scaled_half_area(const Box4& box, float scale) {
-  const Float4 d = (box.upper - box.lower) * splat(scale);
-  return d[0] * (d[1] + d[2]) + d[1] * d[2];
-}
-
-}  // namespace
-
-BinMapping::BinMapping(const Box4& doubled_centres, std::size_t reference_count) : offset(doubled_centres.lower), scale{} {
+BinMapping::BinMapping(const Box4& doubled_centres, std::size_t reference_count) : offset(doubled_centres.lower) {
   bin_count = static_cast<int>(std::min<std::size_t>(kMaxBinCount, 4 + reference_count / 8));
   for (int axis = 0; axis < 3; ++axis) {
     const float extent = doubled_centres.upper[axis] - doubled_centres.lower[axis];
@@ -52,8 +46,9 @@ void Bins::merge(const Bins& other, int bin_count) {
   }
 }
 
-BinnedSplit find_binned_split(const Bins& bins, const BinMapping& mapping, float area_scale) {
+BinnedSplit find_binned_split(const Bins& bins, const BinMapping& mapping, const SplitContext& context) {
   BinnedSplit best;
+  best.mapping = mapping;
   best.cost = std::numeric_limits<float>::infinity();
   const int bin_count = mapping.bin_count;
   for (int axis = 0; axis < 3; ++axis) {
@@ -64,7 +59,7 @@ BinnedSplit find_binned_split(const Bins& bins, const BinMapping& mapping, float
     for (int i = bin_count - 1; i > 0; --i) {
       right.grow(bins.box[axis][i]);
       right_count += bins.count[axis][i];
-      right_cost[i] = right_count > 0 ? scaled_half_area(right, area_scale) * static_cast<float>(right_count) : 0.0F;
+      right_cost[i] = right_count > 0 ? scaled_half_area(right, context.area_scale) * context.time(right_count) : 0.0F;
     }
     Box4 left = Box4::empty();
     std::uint32_t left_count = 0;
@@ -73,21 +68,39 @@ BinnedSplit find_binned_split(const Bins& bins, const BinMapping& mapping, float
       left.grow(bins.box[axis][i - 1]);
       left_count += bins.count[axis][i - 1];
       if (left_count == 0 || left_count == total) continue;
-      const float cost = scaled_half_area(left, area_scale) * static_cast<float>(left_count) + right_cost[i];
+      const float cost = scaled_half_area(left, context.area_scale) * context.time(left_count) + right_cost[i];
       if (cost < best.cost) {
+        best.is_possible = true;
         best.axis = axis;
         best.bin = i;
         best.cost = cost;
         best.left = left;
         best.left_count = left_count;
+        best.right_count = total - left_count;
       }
     }
   }
-  if (best.axis >= 0) {
-    best.right = Box4::empty();
+  if (best.is_possible)
     for (int i = best.bin; i < bin_count; ++i) best.right.grow(bins.box[best.axis][i]);
-  }
   return best;
+}
+
+BinnedSplit BinnedHeuristic::find(const ReferenceRange& range, std::span<const PrimitiveReference> references, Bins& bins) const {
+  const BinMapping mapping(range.centres, range.count);
+  bins.clear(mapping.bin_count);
+  bins.add(mapping, references);
+  return find_binned_split(bins, mapping, context_);
+}
+
+BinnedSplit BinnedHeuristic::find_in_parallel(const ReferenceRange& range, std::span<const PrimitiveReference> references) const {
+  const BinMapping mapping(range.centres, range.count);
+  std::vector<Bins> bins((references.size() + kBuildChunkSize - 1) / kBuildChunkSize);
+  parallel_chunks(references.size(), kBuildChunkSize, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    bins[chunk].clear(mapping.bin_count);
+    bins[chunk].add(mapping, references.subspan(first, last - first));
+  });
+  for (std::size_t chunk = 1; chunk < bins.size(); ++chunk) bins[0].merge(bins[chunk], mapping.bin_count);
+  return find_binned_split(bins[0], mapping, context_);
 }
 
 }  // namespace grove

@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "grove/build/cost_model.h"
-#include "grove/build/primitive_reference.h"
+#include "grove/build/split.h"
 
 namespace grove {
 
@@ -15,10 +14,11 @@ inline constexpr int kMaxBinCount = 16;
 
 /// Which bin a centre falls into, per axis. Made for one set of references from the bounds of their doubled centres.
 struct BinMapping {
-  Float4 offset;
-  Float4 scale;
+  Float4 offset{};
+  Float4 scale{};
   int bin_count = kMaxBinCount;
 
+  BinMapping() = default;
   /// Bins in proportion to the references, up to kMaxBinCount: many bins for few references cost more than they find.
   BinMapping(const Box4& doubled_centres, std::size_t reference_count);
 
@@ -41,18 +41,34 @@ struct Bins {
   void merge(const Bins& other, int bin_count);
 };
 
-/// The cheapest border: references with bin < `bin` on `axis` go left. axis is -1 when no axis can be split.
-struct BinnedSplit {
-  int axis = -1;
+/// The cheapest border: references with bin < `bin` on `axis` go left.
+struct BinnedSplit : Split {
+  BinMapping mapping;
+  int axis = 0;
   int bin = 0;
-  /// Sum over both sides of half area (scaled) times reference count.
-  float cost = 0.0F;
-  Box4 left;
-  Box4 right;
-  std::uint32_t left_count = 0;
+
+  [[nodiscard]] Side side(const PrimitiveReference& reference) const {
+    return mapping.bins(reference.doubled_centre())[axis] < bin ? Side::left : Side::right;
+  }
 };
 
 /// Sweeps the bins of each axis from both sides; ties go to the lower axis, then the lower border. O(bins).
-[[nodiscard]] BinnedSplit find_binned_split(const Bins& bins, const BinMapping& mapping, float area_scale);
+[[nodiscard]] BinnedSplit find_binned_split(const Bins& bins, const BinMapping& mapping, const SplitContext& context);
+
+class BinnedHeuristic {
+ public:
+  using Split = BinnedSplit;
+  using Scratch = Bins;
+  static constexpr bool kDividesReferences = false;
+
+  explicit BinnedHeuristic(const SplitContext& context) : context_(context) {}
+  [[nodiscard]] const SplitContext& context() const { return context_; }
+
+  [[nodiscard]] BinnedSplit find(const ReferenceRange& range, std::span<const PrimitiveReference> references, Bins& bins) const;
+  [[nodiscard]] BinnedSplit find_in_parallel(const ReferenceRange& range, std::span<const PrimitiveReference> references) const;
+
+ private:
+  SplitContext context_;
+};
 
 }  // namespace grove
