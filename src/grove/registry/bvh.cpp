@@ -16,11 +16,12 @@ StructureFamily describe_bvh() {
           "bounding volume hierarchy",
           {
               {"split",
-               {"binned", "sweep", "object-median", "spatial-median"},
+               {"binned", "sweep", "spatial", "object-median", "spatial-median"},
                0,
                0,
                0,
-               "how a set is parted: surface-area heuristic over bins or over all object splits, equal counts, equal volumes"},
+               "how a set is parted: surface-area heuristic over bins, over all object splits, or cutting primitives; equal counts; equal "
+               "volumes"},
               {"cost", {"standard", "equation-2"}, 0, 0, 0, "the surface-area cost of a split: today's form, or the review's equation 2"},
               {"bounds", {"aabb"}, 0, 0, 0, "the bounding volume: axis-aligned boxes"},
               {"arity", {"2"}, 0, 0, 0, "children of an interior node"},

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "grove/build/primitive_reference.h"
+#include "grove/build/spatial_splits.h"
 #include "grove/build/top_down.h"
 #include "grove/registry/bvh_options.h"
 
@@ -19,9 +20,10 @@ template <Geometry G>
                                                                         {"object-median", ObjectSplit::object_median},
                                                                         {"spatial-median", ObjectSplit::spatial_median}};
   TopDownSettings settings;
-  settings.split = kObjectSplits.at(options.split);
   if (options.cost == "equation-2") settings.cost.split_cost = SplitCost::equation_2;
   settings.leaf_size = options.leaves_are_decided_later() ? 1 : options.leaf_size;
+  if (options.split == "spatial") return build_with_spatial_splits(geometry, settings);
+  settings.split = kObjectSplits.at(options.split);
   return build_top_down(list_references(geometry), settings);
 }
 

@@ -15,7 +15,9 @@ constexpr RegistryRow kRows[] = {
     {describe_bvh, build_bvh},
 };
 
-constexpr std::string_view kRepresentativeSpecs[] = {"brute", "bvh"};
+constexpr std::string_view kRepresentativeSpecs[] = {
+    "brute", "bvh", "bvh:split=sweep", "bvh:split=spatial", "bvh:split=object-median", "bvh:split=spatial-median",
+};
 
 }  // namespace
 
