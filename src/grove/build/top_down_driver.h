@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "grove/base/parallel.h"
-#include "grove/build/part.h"
+#include "grove/build/hierarchy_part.h"
 #include "grove/build/split.h"
 #include "grove/build/top_down.h"
 
@@ -65,7 +65,7 @@ class SubtreeBuilder {
   SubtreeBuilder(PrimitiveReference* references, std::uint32_t* ids, const TopDownSettings& settings, const H& heuristic)
       : references_(references), ids_(ids), settings_(settings), heuristic_(heuristic) {}
 
-  Part build(const ReferenceRange& range, std::uint32_t depth) {
+  HierarchyPart build(const ReferenceRange& range, std::uint32_t depth) {
     part_.nodes.reserve(range.count / 2);
     part_.link = build_range(range, depth);
     part_.depth = deepest_ - depth;
@@ -163,7 +163,7 @@ class SubtreeBuilder {
   std::uint32_t* ids_;
   const TopDownSettings& settings_;
   const H& heuristic_;
-  Part part_;
+  HierarchyPart part_;
   typename H::Scratch scratch_;
   std::uint32_t deepest_ = 0;
 };
@@ -178,7 +178,7 @@ class TopBuilder {
     buffers_[1] = spare_.data();
   }
 
-  Part build(const ReferenceRange& range, std::uint32_t depth, int buffer) {
+  HierarchyPart build(const ReferenceRange& range, std::uint32_t depth, int buffer) {
     if (range.count <= kTaskSize) return SubtreeBuilder<H>(buffers_[buffer], ids_, settings_, heuristic_).build(range, depth);
     const typename H::Split split = find_split(range, {buffers_[buffer] + range.first, range.count});
     ReferenceRange left;
@@ -189,9 +189,9 @@ class TopBuilder {
     } else {
       halve(buffers_[buffer], range, left, right);
     }
-    Part part;
-    parallel_invoke([&] { part.children[0] = std::make_unique<Part>(build(left, depth + 1, buffer)); },
-                    [&] { part.children[1] = std::make_unique<Part>(build(right, depth + 1, buffer)); });
+    HierarchyPart part;
+    parallel_invoke([&] { part.children[0] = std::make_unique<HierarchyPart>(build(left, depth + 1, buffer)); },
+                    [&] { part.children[1] = std::make_unique<HierarchyPart>(build(right, depth + 1, buffer)); });
     part.bounds[0] = left.bounds;
     part.bounds[1] = right.bounds;
     part.depth = 1 + std::max(part.children[0]->depth, part.children[1]->depth);
@@ -276,7 +276,7 @@ template <SplitHeuristic H>
   list.references.resize(capacity);
   bvh.references.resize(capacity);
   if (H::kDividesReferences) std::fill(bvh.references.begin(), bvh.references.end(), kNoReference);
-  Part root = TopBuilder<H>(list.references, bvh.references.data(), settings, heuristic).build(all, 0, 0);
+  HierarchyPart root = TopBuilder<H>(list.references, bvh.references.data(), settings, heuristic).build(all, 0, 0);
   list.references = {};
   assemble(root, bvh);
   if (H::kDividesReferences) close_reference_gaps(bvh);

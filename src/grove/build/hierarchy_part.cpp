@@ -1,4 +1,4 @@
-#include "grove/build/part.h"
+#include "grove/build/hierarchy_part.h"
 
 #include "grove/base/parallel.h"
 
@@ -6,13 +6,13 @@ namespace grove {
 namespace {
 
 // Gives each part its place in depth-first order; returns the end.
-std::uint32_t place(Part& part, std::uint32_t offset) {
+std::uint32_t place(HierarchyPart& part, std::uint32_t offset) {
   part.offset = offset;
   if (part.children[0] == nullptr) return offset + static_cast<std::uint32_t>(part.nodes.size());
   return place(*part.children[1], place(*part.children[0], offset + 1));
 }
 
-Bvh2Node::Child copy_nodes(Part& part, Bvh2Node* nodes) {
+Bvh2Node::Child copy_nodes(HierarchyPart& part, Bvh2Node* nodes) {
   if (part.is_leaf()) return part.link;
   if (part.children[0] == nullptr) {
     for (std::size_t i = 0; i < part.nodes.size(); ++i) {
@@ -44,7 +44,7 @@ void set_children(Bvh2Node& node, const Box4& left, const Box4& right) {
   }
 }
 
-void assemble(Part& root, Bvh2& bvh) {
+void assemble(HierarchyPart& root, Bvh2& bvh) {
   bvh.depth = root.depth;
   bvh.nodes.resize(place(root, 0));
   copy_nodes(root, bvh.nodes.data());

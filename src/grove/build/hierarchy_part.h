@@ -12,11 +12,11 @@
 namespace grove {
 
 /// A finished part of a hierarchy: nodes numbered from 0 whose root is node 0, or a single leaf, or a node over two parts.
-struct Part {
+struct HierarchyPart {
   std::vector<Bvh2Node> nodes;
   Bvh2Node::Child link{};
   std::uint32_t depth = 0;
-  std::unique_ptr<Part> children[2];
+  std::unique_ptr<HierarchyPart> children[2];
   Box4 bounds[2];
   std::uint32_t offset = 0;
 
@@ -26,6 +26,6 @@ struct Part {
 void set_children(Bvh2Node& node, const Box4& left, const Box4& right);
 
 /// Copies the parts to `bvh.nodes` in depth-first order, in parallel, and sets its depth.
-void assemble(Part& root, Bvh2& bvh);
+void assemble(HierarchyPart& root, Bvh2& bvh);
 
 }  // namespace grove
