@@ -15,7 +15,7 @@ struct TopDownSettings {
   ObjectSplit split = ObjectSplit::binned;
   /// Ranges of at most this many references may become leaves; they do where the cost model says so. At least 1.
   std::uint32_t leaf_size = 8;
-  CostModel cost;
+  CostModel cost = {};
   /// Spatial splits only: how many references may be added, relative to the primitives.
   double duplication_budget = 1.0;
   /// Spatial splits only: they are tried where the overlap of the best object split has this share of the root's area (alpha in Stich et al. 2009).

@@ -12,42 +12,11 @@
 #include <span>
 
 #include "grove/build/splits/binned.h"
+#include "grove/build/splits/slices.h"
+#include "grove/build/splits/spatial_bins.h"
 #include "grove/geometry/geometry_concept.h"
 
 namespace grove {
-
-inline constexpr int kSpatialBinCount = 16;
-
-/// The planes between equal bins along one axis of a range's bounds. A bin's borders are given by plane(), and bins are told by comparing
-/// with them, so that counting and dividing agree exactly.
-class SpatialGrid {
- public:
-  SpatialGrid() = default;
-  SpatialGrid(const Box4& bounds, int axis);
-
-  [[nodiscard]] float plane(int i) const { return planes_[i]; }
-  /// Whether the planes all differ, so that each bin has an extent.
-  [[nodiscard]] bool is_usable() const { return is_usable_; }
-  /// The bin in which something begins whose lower bound is `lower`: the last one whose lower border is not above it.
-  [[nodiscard]] int first_bin(float lower) const;
-  /// The bin in which it ends: the first one whose upper border is not below `upper`, but not before `first`.
-  [[nodiscard]] int last_bin(float upper, int first) const;
-
- private:
-  float planes_[kSpatialBinCount + 1] = {};
-  float inverse_width_ = 0.0F;
-  bool is_usable_ = false;
-};
-
-/// Bounds of the parts of references in each bin, how many begin there and how many end there.
-struct SpatialBins {
-  Box4 box[3][kSpatialBinCount];
-  std::uint32_t begin[3][kSpatialBinCount];
-  std::uint32_t end[3][kSpatialBinCount];
-
-  void clear();
-  void merge(const SpatialBins& other);
-};
 
 /// Either an object split, or a plane.
 struct SpatialSplit : Split {
@@ -174,19 +143,10 @@ class SpatialHeuristic {
           bins.box[axis][first].grow(whole);
           continue;
         }
-        // Cut off bin by bin, as the paper does: each cut is of what is left.
-        Box rest = whole.box();
-        for (int bin = first; bin < last; ++bin) {
-          const float plane = grid.plane(bin + 1);
-          bins.box[axis][bin].grow(box4(geometry_.clip(reference.primitive(), below(rest, axis, plane))));
-          rest = above(rest, axis, plane);
-        }
-        bins.box[axis][last].grow(box4(geometry_.clip(reference.primitive(), rest)));
+        add_slices(geometry_, reference.primitive(), whole, grid, axis, first, last, bins.box[axis]);
       }
     }
   }
-
-  [[nodiscard]] static Box4 box4(const Box& box) { return {to_float4(box.lower), to_float4(box.upper)}; }
 
   // Replaces `split` by the best spatial one where that costs less, with the counts and boxes that unsplitting leaves.
   void choose_spatial(SpatialSplit& split, const SpatialBins& bins, const SpatialGrid grids[3], const ReferenceRange& range,
