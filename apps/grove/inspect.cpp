@@ -7,6 +7,7 @@
 #include "grove/base/error.h"
 #include "grove/base/output_file.h"
 #include "grove/lab/node_boxes.h"
+#include "grove/lab/split_costs.h"
 #include "grove/lab/structure_report.h"
 #include "grove/lab/text_table.h"
 #include "session.h"
@@ -15,8 +16,11 @@
 namespace grove::app {
 namespace {
 
+constexpr unsigned kSplitPlanes = 255;
+
 struct InspectOptions : CommonOptions {
   std::filesystem::path obj;
+  std::filesystem::path split_costs;
   std::string depths;
 };
 
@@ -40,6 +44,7 @@ int run(const InspectOptions& options, Interrupts& interrupts) {
   const DepthRange depths = parse_depths(options.depths);
   if (!options.json.empty()) check_writable(options.json);
   if (!options.obj.empty()) check_writable(options.obj);
+  if (!options.split_costs.empty()) check_writable(options.split_costs);
   Scene scene = load(options.scene, console);
   drop_shading_data(scene);
   const BuiltStructure built = build_structure(scene, spec, console);
@@ -57,6 +62,10 @@ int run(const InspectOptions& options, Interrupts& interrupts) {
     const std::uint64_t box_count = write_node_boxes(options.obj, built.accelerator.top(), depths);
     console.say(fmt::format("\nwrote {}: {} boxes", options.obj.string(), with_separators(box_count)));
   }
+  if (!options.split_costs.empty()) {
+    write_text_file(options.split_costs, split_costs_csv(split_cost_curves(scene, kSplitPlanes)));
+    console.say(fmt::format("\nwrote {}: costs of {} planes an axis", options.split_costs.string(), kSplitPlanes));
+  }
   return 0;
 }
 
@@ -73,6 +82,9 @@ Verb add_inspect(CLI::App& program) {
       ->type_name("FILE");
   verb.add_option("--depth", options->depths, "Levels whose boxes --obj writes: one, or a range; the root is 0 (default: all)")
       ->type_name("N|N-N");
+  verb.add_option("--split-costs", options->split_costs,
+                  "Write the cost of parting the largest object at planes along each axis, today's form and equation 2, to this CSV file")
+      ->type_name("FILE");
   add_quiet(verb, *options);
   verb.footer(
       "Examples:\n"
