@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "grove/accel/bvh2.h"
+#include "grove/accel/wide_bvh.h"
 
 namespace grove {
 
@@ -21,16 +22,33 @@ double AreaMeasure::half_area(const Box& box) const {
   return d.x * (d.y + d.z) + d.y * d.z;
 }
 
-double expected_cost(const Bvh2& bvh, const CostModel& model) {
-  const AreaMeasure measure(bvh.bounds);
-  const double root_area = measure.half_area(bvh.bounds);
+namespace {
+
+template <typename Hierarchy>
+double cost_of(const Hierarchy& hierarchy, const CostModel& model) {
+  const AreaMeasure measure(hierarchy.bounds);
+  const double root_area = measure.half_area(hierarchy.bounds);
   double sum = 0.0;
-  bvh.visit([&](const Box& box, std::uint32_t /*depth*/, std::uint32_t /*first*/, std::uint32_t count) {
+  hierarchy.visit([&](const Box& box, std::uint32_t /*depth*/, std::uint32_t /*first*/, std::uint32_t count) {
     // A scene without area (all in one point or on one line) is met by every ray that meets its root.
     const double probability = root_area > 0.0 ? measure.half_area(box) / root_area : 1.0;
     sum += probability * (count > 0 ? model.intersection * count : model.traversal);
   });
   return sum;
 }
+
+}  // namespace
+
+double expected_cost(const Bvh2& bvh, const CostModel& model) {
+  return cost_of(bvh, model);
+}
+
+template <int N>
+double expected_cost(const WideBvh<N>& bvh, const CostModel& model) {
+  return cost_of(bvh, model);
+}
+
+template double expected_cost(const WideBvh<4>& bvh, const CostModel& model);
+template double expected_cost(const WideBvh<8>& bvh, const CostModel& model);
 
 }  // namespace grove

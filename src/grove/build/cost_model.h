@@ -10,6 +10,8 @@
 namespace grove {
 
 struct Bvh2;
+template <int N>
+struct WideBvh;
 
 /// How the cost of a split counts what lies inside its subsets (SubsetTime in build/split.h).
 enum class SplitCost : std::uint8_t { standard, equation_2 };
@@ -37,5 +39,9 @@ class AreaMeasure {
 /// Expected time of tracing one ray that meets the root: the sum over interior nodes of traversal * area / root area, and over leaves of
 /// intersection * references * area / root area. 0 for an empty hierarchy. O(nodes).
 [[nodiscard]] double expected_cost(const Bvh2& bvh, const CostModel& model);
+
+/// The same for a wide hierarchy; `model.traversal` is then the time of a step through a wide node.
+template <int N>
+[[nodiscard]] double expected_cost(const WideBvh<N>& bvh, const CostModel& model);
 
 }  // namespace grove

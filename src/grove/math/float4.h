@@ -45,6 +45,15 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
 #endif
 }
 
+/// Bit i: whether lane i of a comparison is true.
+[[nodiscard]] inline int four_lanes(Int4 mask) {
+#ifdef __SSE__
+  return __builtin_ia32_movmskps(reinterpret_cast<Float4>(mask));
+#else
+  return (mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8);
+#endif
+}
+
 /// Unaligned.
 [[nodiscard]] inline Float4 load4(const float* p) {
   Float4 v;

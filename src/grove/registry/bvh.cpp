@@ -9,6 +9,8 @@ BvhOptions::BvhOptions(const Spec& spec)
       cost(spec.value("cost")),
       bounds(spec.value("bounds")),
       arity(std::stoi(spec.value("arity"))),
+      widen(spec.value("widen")),
+      optimize(spec.value("optimize")),
       leaf_size(static_cast<std::uint32_t>(spec.number("leaf-size"))) {}
 
 StructureFamily describe_bvh() {
@@ -24,13 +26,27 @@ StructureFamily describe_bvh() {
                "volumes"},
               {"cost", {"standard", "equation-2"}, 0, 0, 0, "the surface-area cost of a split: today's form, or the review's equation 2"},
               {"bounds", {"aabb"}, 0, 0, 0, "the bounding volume: axis-aligned boxes"},
-              {"arity", {"2"}, 0, 0, 0, "children of an interior node"},
+              {"arity", {"2", "4", "8"}, 0, 0, 0, "most children of an interior node"},
+              {"widen",
+               {"optimal", "greedy"},
+               0,
+               0,
+               0,
+               "arity above 2: collapse of a binary hierarchy at least cost, or multi-way split from the top"},
+              {"optimize", {"none", "reinsertion"}, 0, 0, 0, "improvement of the built hierarchy: parallel reinsertion of subtrees"},
               {"leaf-size", {}, 1, 64, 8, "most primitives in a leaf; the cost model decides below it"},
           }};
 }
 
 std::unique_ptr<Accelerator> build_bvh(const Spec& spec, const GeometryPointer& geometry) {
-  return build_binary_bvh(spec, geometry);
+  switch (BvhOptions(spec).arity) {
+    case 4:
+      return build_bvh4(spec, geometry);
+    case 8:
+      return build_bvh8(spec, geometry);
+    default:
+      return build_binary_bvh(spec, geometry);
+  }
 }
 
 }  // namespace grove

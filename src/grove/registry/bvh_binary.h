@@ -5,6 +5,8 @@
 #include <map>
 #include <string_view>
 
+#include "grove/build/passes/collapse.h"
+#include "grove/build/passes/reinsertion.h"
 #include "grove/build/primitive_reference.h"
 #include "grove/build/spatial_splits.h"
 #include "grove/build/top_down.h"
@@ -12,9 +14,9 @@
 
 namespace grove {
 
-/// Builds the binary hierarchy over axis-aligned boxes that `options` ask for, before it is widened or bounded otherwise.
+/// Builds by the split that `options` name.
 template <Geometry G>
-[[nodiscard]] Bvh2 build_binary_hierarchy(const G& geometry, const BvhOptions& options) {
+[[nodiscard]] Bvh2 build_by_split(const G& geometry, const BvhOptions& options) {
   static const std::map<std::string_view, ObjectSplit> kObjectSplits = {{"binned", ObjectSplit::binned},
                                                                         {"sweep", ObjectSplit::sweep},
                                                                         {"object-median", ObjectSplit::object_median},
@@ -25,6 +27,23 @@ template <Geometry G>
   if (options.split == "spatial") return build_with_spatial_splits(geometry, settings);
   settings.split = kObjectSplits.at(options.split);
   return build_top_down(list_references(geometry), settings);
+}
+
+/// How `options` want leaves and children decided after building.
+[[nodiscard]] inline CollapseSettings collapse_settings(const BvhOptions& options) {
+  CollapseSettings settings;
+  settings.arity = options.arity;
+  settings.leaf_size = options.leaf_size;
+  settings.widening = options.widen == "greedy" ? Widening::greedy : Widening::optimal;
+  return settings;
+}
+
+/// Builds the binary hierarchy over axis-aligned boxes that `options` ask for, before it is widened or bounded otherwise.
+template <Geometry G>
+[[nodiscard]] Bvh2 build_binary_hierarchy(const G& geometry, const BvhOptions& options) {
+  Bvh2 bvh = build_by_split(geometry, options);
+  if (options.optimize == "reinsertion") bvh = optimize_by_reinsertion(bvh);
+  return bvh;
 }
 
 }  // namespace grove

@@ -12,4 +12,8 @@ namespace grove {
 /// Two children a node, axis-aligned boxes.
 [[nodiscard]] std::unique_ptr<Accelerator> build_binary_bvh(const Spec& spec, const GeometryPointer& geometry);
 
+/// Up to four, or eight, children a node, axis-aligned boxes.
+[[nodiscard]] std::unique_ptr<Accelerator> build_bvh4(const Spec& spec, const GeometryPointer& geometry);
+[[nodiscard]] std::unique_ptr<Accelerator> build_bvh8(const Spec& spec, const GeometryPointer& geometry);
+
 }  // namespace grove

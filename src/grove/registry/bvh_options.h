@@ -15,10 +15,12 @@ struct BvhOptions {
   std::string cost;
   std::string bounds;
   int arity = 2;
+  std::string widen;
+  std::string optimize;
   std::uint32_t leaf_size = 8;
 
   /// Whether later passes decide which references share a leaf, so that the builder must part them all.
-  [[nodiscard]] bool leaves_are_decided_later() const { return arity > 2 || bounds != "aabb"; }
+  [[nodiscard]] bool leaves_are_decided_later() const { return arity > 2 || bounds != "aabb" || optimize != "none"; }
 };
 
 }  // namespace grove

@@ -16,7 +16,17 @@ constexpr RegistryRow kRows[] = {
 };
 
 constexpr std::string_view kRepresentativeSpecs[] = {
-    "brute", "bvh", "bvh:split=sweep", "bvh:split=spatial", "bvh:split=object-median", "bvh:split=spatial-median",
+    "brute",
+    "bvh",
+    "bvh:split=sweep",
+    "bvh:split=spatial",
+    "bvh:split=object-median",
+    "bvh:split=spatial-median",
+    "bvh:arity=4",
+    "bvh:arity=8",
+    "bvh:arity=8,widen=greedy",
+    "bvh:optimize=reinsertion",
+    "bvh:split=spatial,optimize=reinsertion",
 };
 
 }  // namespace

@@ -4,11 +4,9 @@
 // entered, the farther waits on a stack with its distance and is dropped at pop when a closer hit has been found since.
 
 #include <cstdint>
-#include <utility>
 
 #include "grove/accel/bvh2.h"
 #include "grove/geometry/geometry_concept.h"
-#include "grove/geometry/leaf_storage.h"
 #include "grove/math/float4.h"
 #include "grove/traverse/slab_ray.h"
 
@@ -121,52 +119,6 @@ void walk(const Bvh2& bvh, const Ray& ray, const float& t_max, const LeafTest& l
       pending = true;
     }
   }
-}
-
-/// A hierarchy together with the way its leaves reach the primitives of a geometry.
-template <Geometry G>
-struct TraceableBvh2 {
-  Bvh2 bvh;
-  LeafStorage<G> leaves;
-
-  TraceableBvh2(Bvh2 hierarchy, const G& geometry) : bvh(std::move(hierarchy)), leaves(geometry, bvh.references) {}
-
-  /// Bytes kept for tracing.
-  [[nodiscard]] std::size_t memory() const { return bvh.memory() + leaves.memory(); }
-};
-
-/// Closest hit. `hit.t` must start as the ray's t_max.
-template <Geometry G, typename C>
-void trace_closest(const TraceableBvh2<G>& structure, const G& geometry, const Ray& ray, Hit& hit, C& counter) {
-  const typename G::PreparedRay prepared = geometry.prepare(ray);
-  const std::uint32_t* const references = structure.bvh.references.data();
-  const auto test_leaf = [&](std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t slot = first; slot < first + count; ++slot) {
-      counter.test_primitive();
-      structure.leaves.intersect(geometry, references, slot, prepared, hit, counter);
-    }
-    return false;
-  };
-  const auto prefetch_leaf = [&](std::uint32_t first) { structure.leaves.prefetch(references, first); };
-  walk(structure.bvh, ray, hit.t, test_leaf, prefetch_leaf, counter);
-}
-
-/// Any hit within [ray.t_min, ray.t_max].
-template <Geometry G, typename C>
-bool trace_any(const TraceableBvh2<G>& structure, const G& geometry, const Ray& ray, C& counter) {
-  const typename G::PreparedRay prepared = geometry.prepare(ray);
-  const std::uint32_t* const references = structure.bvh.references.data();
-  bool found = false;
-  const auto test_leaf = [&](std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t slot = first; slot < first + count && !found; ++slot) {
-      counter.test_primitive();
-      found = structure.leaves.occluded(geometry, references, slot, prepared, counter);
-    }
-    return found;
-  };
-  const auto prefetch_leaf = [&](std::uint32_t first) { structure.leaves.prefetch(references, first); };
-  walk(structure.bvh, ray, ray.t_max, test_leaf, prefetch_leaf, counter);
-  return found;
 }
 
 }  // namespace grove

@@ -1,0 +1,102 @@
+#pragma once
+
+// Collapsing a binary hierarchy: which of its subtrees become leaves, and which of its nodes are opened so that their children become children
+// of the node above. Both are decided together, to the least cost of equation 2 of the review generalised to several subsets: a node
+// with the subsets A_k costs  t_node + sum over k of S_k / S times the cost of A_k,  a leaf  n t_intersection.
+//
+// - optimal: dynamic programming over the binary tree (Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed
+//   Wide BVHs", 2017, section 3.1). For each subtree the least cost of replacing it by at most k subtrees, for all k.
+// - greedy: the multi-way split from the top down. A set is split into up to N subsets by splitting, again and again, the subset whose splitting
+//   lowers the node's cost most. How a subset is split depends on the subset alone, so splitting sets from the top is the
+//   same as opening nodes of the binary tree of all splits from the top, which is what is done here. A set stays whole where testing it costs
+//   no more than its multi-way split.
+//
+// With N = 2 the optimal plan opens nothing and decides the leaves of a binary hierarchy.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "grove/accel/bvh2.h"
+#include "grove/accel/wide_bvh.h"
+#include "grove/build/cost_model.h"
+
+namespace grove {
+
+enum class Widening : std::uint8_t { optimal, greedy };
+
+struct CollapseSettings {
+  int arity = 2;  ///< most children of a node, 2 to kMaxArity
+  std::uint32_t leaf_size = 8;
+  Widening widening = Widening::optimal;
+  CostModel cost = {};
+};
+
+/// What a binary hierarchy is to be collapsed to. Knows subtrees by the numbers of their root nodes.
+class CollapsePlan {
+ public:
+  static constexpr int kMaxArity = 8;
+
+  /// `slot_areas[2 i + side]` is the area of the volume around that child of node i, in any unit and for any convex volume. `bvh` must be in depth-first order and outlive the plan. O(nodes), parallel by subtrees.
+  CollapsePlan(const Bvh2& bvh, std::span<const float> slot_areas, float root_area, const CollapseSettings& settings);
+
+  /// A child of a planned node.
+  struct Child {
+    std::uint32_t slot;   ///< of the binary hierarchy: 2 * node + side
+    std::uint32_t node;   ///< number of the binary node that roots it, or kNoNode
+    std::uint32_t first;  ///< references, when it is a leaf
+    std::uint32_t count;  ///< 0 for an interior node
+  };
+  static constexpr std::uint32_t kNoNode = 0xffffffffU;
+  static constexpr std::uint32_t kRootSlot = 0xffffffffU;
+
+  /// The root as a child of nothing.
+  [[nodiscard]] Child root() const;
+  /// The children of a planned interior node, in the order of the binary hierarchy; returns how many.
+  int children(std::uint32_t node, Child* children) const;
+
+ private:
+  // The best forests of at most 1, 2, … kMaxArity - 1 roots for one subtree. choice[0]: 0 for a leaf, else how many of the node's
+  // children come from its left side; choice[k]: 0 when a root less is as good, else the same for a forest of k + 1 roots.
+  struct Forests {
+    float cost[kMaxArity - 1];
+    std::uint8_t choice[kMaxArity];
+  };
+
+  void plan_range(std::uint32_t first, std::uint32_t last);
+  void plan_node(std::uint32_t node);
+  [[nodiscard]] float forest_cost(std::uint32_t slot, int roots) const;
+  void collect(std::uint32_t slot, int roots, Child* children, int& count) const;
+  [[nodiscard]] Child child_of(std::uint32_t slot) const;
+  [[nodiscard]] bool is_leaf(std::uint32_t node) const;
+  // The time of testing all references of a subset, by the chance that its volume is met.
+  [[nodiscard]] float subset_cost(std::uint32_t slot) const;
+  int open_greedily(std::uint32_t node, std::uint32_t* slots) const;
+
+  const Bvh2& bvh_;
+  std::span<const float> slot_areas_;
+  CollapseSettings settings_;
+  std::vector<Forests> forests_;
+  std::vector<float> areas_;  // of each node
+  struct Range {
+    std::uint32_t first, count;
+  };
+  std::vector<Range> ranges_;  // the references of each node
+};
+
+/// Half areas of the boxes of all slots in scaled units, and of the root.
+struct SlotAreas {
+  std::vector<float> slots;
+  float root = 0.0F;
+};
+[[nodiscard]] SlotAreas box_areas(const Bvh2& bvh);
+
+/// The same hierarchy with the leaves that cost least. `bvh` must be in depth-first order. A leaf that would name a primitive twice (pieces of a
+/// spatial split) names it once. O(nodes + references).
+[[nodiscard]] Bvh2 collapse_leaves(const Bvh2& bvh, const CollapseSettings& settings);
+
+/// The hierarchy with up to N children a node (settings.arity is taken as N). Otherwise as collapse_leaves.
+template <int N>
+[[nodiscard]] WideBvh<N> widen(const Bvh2& bvh, const CollapseSettings& settings);
+
+}  // namespace grove

@@ -1,0 +1,118 @@
+#pragma once
+
+// Ordered depth-first traversal of a wide hierarchy: all children of a node are tested four at a time, those that are met are entered near to
+// far. Otherwise as traverse/bvh2_traversal.h.
+
+#include <bit>
+#include <cstdint>
+
+#include "grove/accel/bvh2.h"
+#include "grove/accel/wide_bvh.h"
+#include "grove/geometry/geometry_concept.h"
+#include "grove/math/float4.h"
+#include "grove/traverse/slab_ray.h"
+
+namespace grove {
+
+/// The box tests of a wide node for one ray.
+template <int N>
+class WideSlabs {
+ public:
+  explicit WideSlabs(const SlabRay& ray) {
+    for (int axis = 0; axis < 3; ++axis) {
+      origin_near_[axis] = splat(ray.origin_near[axis]);
+      origin_far_[axis] = splat(ray.origin_far[axis]);
+      inverse_near_[axis] = splat(ray.inverse_near[axis]);
+      inverse_far_[axis] = splat(ray.inverse_far[axis]);
+      near_[axis] = ray.negative[axis] ? 1 : 0;
+    }
+  }
+
+  /// Writes the entry distances of all places; bit i of the result is set where child i is met within [t_min, t_max].
+  [[nodiscard, gnu::always_inline]] unsigned test(const WideNode<N>& node, Float4 t_min, Float4 t_max, float* entry) const {
+    unsigned met = 0;
+    for (int group = 0; group < N / 4; ++group) {
+      // min and max keep the second operand where the first is NaN: a ray inside a plane is not limited by it.
+      Float4 near = t_min;
+      Float4 far = t_max;
+      for (int axis = 0; axis < 3; ++axis) {
+        near = max((load4(node.planes[axis][near_[axis]] + 4 * group) - origin_near_[axis]) * inverse_near_[axis], near);
+        far = min((load4(node.planes[axis][1 - near_[axis]] + 4 * group) - origin_far_[axis]) * inverse_far_[axis], far);
+      }
+      __builtin_memcpy(entry + 4 * group, &near, sizeof near);
+      met |= static_cast<unsigned>(four_lanes(near <= far)) << (4 * group);
+    }
+    return met;
+  }
+
+ private:
+  Float4 origin_near_[3];
+  Float4 origin_far_[3];
+  Float4 inverse_near_[3];
+  Float4 inverse_far_[3];
+  int near_[3];
+};
+
+/// Walks the leaves that the ray meets; the contract is that of the walk through a Bvh2.
+template <int N, typename LeafTest, typename LeafPrefetch, typename C>
+void walk(const WideBvh<N>& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, const LeafPrefetch& prefetch_leaf, C& counter) {
+  if (bvh.references.empty()) return;
+  if (bvh.nodes.empty()) {
+    counter.enter_leaf();
+    leaf(0U, static_cast<std::uint32_t>(bvh.references.size()));
+    return;
+  }
+  using Child = typename WideNode<N>::Child;
+  struct Entry {
+    Child child;
+    float t;
+  };
+  // Each level leaves at most N - 1 behind.
+  Entry stack[(N - 1) * Bvh2::kMaxDepth + N];
+  std::uint32_t stack_size = 0;
+  const WideSlabs<N> slabs(SlabRay(ray, bvh.bounds));
+  const Float4 t_min = splat(ray.t_min > 0.0F ? ray.t_min : 0.0F);
+  Float4 limit = splat(t_max);
+  Child next{0, 0};
+  for (;;) {
+    if (next.count > 0) {
+      counter.enter_leaf();
+      if (leaf(next.first, next.count)) return;
+      limit = splat(t_max);
+    } else {
+      const WideNode<N>& node = bvh.nodes[next.first];
+      counter.visit_node();
+      float entry[N];
+      unsigned met = slabs.test(node, t_min, limit, entry);
+      if (met != 0) {
+        const std::uint32_t bottom = stack_size;
+        do {
+          const int i = std::countr_zero(met);
+          met &= met - 1;
+          const Child child = node.child[i];
+          if (child.count > 0) {
+            prefetch_leaf(child.first);
+          } else {
+            const char* const line = reinterpret_cast<const char*>(bvh.nodes.data() + child.first);
+            for (std::size_t offset = 0; offset < sizeof(WideNode<N>); offset += 64) __builtin_prefetch(line + offset);
+          }
+          // Insertion by distance, the nearest on top; mostly there are one or two.
+          std::uint32_t place = stack_size++;
+          for (; place > bottom && stack[place - 1].t < entry[i]; --place) stack[place] = stack[place - 1];
+          stack[place] = {child, entry[i]};
+        } while (met != 0);
+        counter.reach_stack_depth(stack_size);
+        next = stack[--stack_size].child;
+        continue;
+      }
+    }
+    // A tie must still be visited: the primitive there may have a lower id.
+    do {
+      if (stack_size == 0) return;
+      --stack_size;
+    } while (stack[stack_size].t > t_max);
+    next = stack[stack_size].child;
+  }
+}
+
+}  // namespace grove
