@@ -11,14 +11,15 @@ BvhOptions::BvhOptions(const Spec& spec)
       arity(std::stoi(spec.value("arity"))),
       widen(spec.value("widen")),
       optimize(spec.value("optimize")),
-      leaf_size(static_cast<std::uint32_t>(spec.number("leaf-size"))) {}
+      leaf_size(static_cast<std::uint32_t>(spec.number("leaf-size"))),
+      radius(static_cast<std::uint32_t>(spec.number("radius"))) {}
 
 StructureFamily describe_bvh() {
   return {"bvh",
           "bounding volume hierarchy",
           {
               {"split",
-               {"binned", "sweep", "spatial", "object-median", "spatial-median"},
+               {"binned", "sweep", "spatial", "object-median", "spatial-median", "lbvh", "ploc"},
                0,
                0,
                0,
@@ -35,6 +36,7 @@ StructureFamily describe_bvh() {
                "arity above 2: collapse of a binary hierarchy at least cost, or multi-way split from the top"},
               {"optimize", {"none", "reinsertion"}, 0, 0, 0, "improvement of the built hierarchy: parallel reinsertion of subtrees"},
               {"leaf-size", {}, 1, 64, 8, "most primitives in a leaf; the cost model decides below it"},
+              {"radius", {}, 1, 64, 8, "split=ploc: how many places along the Morton curve neighbours are looked for"},
           }};
 }
 

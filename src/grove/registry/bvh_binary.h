@@ -5,6 +5,8 @@
 #include <map>
 #include <string_view>
 
+#include "grove/build/bottom_up/lbvh.h"
+#include "grove/build/bottom_up/ploc.h"
 #include "grove/build/passes/collapse.h"
 #include "grove/build/passes/reinsertion.h"
 #include "grove/build/primitive_reference.h"
@@ -21,6 +23,13 @@ template <Geometry G>
                                                                         {"sweep", ObjectSplit::sweep},
                                                                         {"object-median", ObjectSplit::object_median},
                                                                         {"spatial-median", ObjectSplit::spatial_median}};
+  if (options.split == "lbvh" || options.split == "ploc") {
+    BottomUpSettings settings;
+    settings.leaf_size = options.leaves_are_decided_later() ? 1 : options.leaf_size;
+    settings.radius = options.radius;
+    const ReferenceList list = list_references(geometry);
+    return options.split == "lbvh" ? build_lbvh(list, settings) : build_ploc(list, settings);
+  }
   TopDownSettings settings;
   if (options.cost == "equation-2") settings.cost.split_cost = SplitCost::equation_2;
   settings.leaf_size = options.leaves_are_decided_later() ? 1 : options.leaf_size;

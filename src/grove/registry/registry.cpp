@@ -22,6 +22,8 @@ constexpr std::string_view kRepresentativeSpecs[] = {
     "bvh:split=spatial",
     "bvh:split=object-median",
     "bvh:split=spatial-median",
+    "bvh:split=lbvh",
+    "bvh:split=ploc",
     "bvh:arity=4",
     "bvh:arity=8",
     "bvh:arity=8,widen=greedy",

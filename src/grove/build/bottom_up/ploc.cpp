@@ -1,0 +1,173 @@
+#include "grove/build/bottom_up/ploc.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "grove/build/bottom_up/morton_order.h"
+
+namespace grove {
+namespace {
+
+constexpr std::size_t kChunk = 4096;
+constexpr int kSearchRounds = 64;
+
+// Clusters are numbered: below reference_count they are single references in Morton order, above joined ones.
+class ClusterTopology {
+ public:
+  using Subtree = std::uint32_t;
+
+  explicit ClusterTopology(const HugeVector<PrimitiveReference>& references) : references_(references), joined_(references.size() - 1) {}
+
+  [[nodiscard]] Subtree root() const { return static_cast<std::uint32_t>(references_.size() + joined_.size() - 1); }
+  [[nodiscard]] std::uint32_t count(Subtree cluster) const { return is_single(cluster) ? 1 : joined(cluster).count; }
+  [[nodiscard]] const PrimitiveReference& reference(Subtree cluster) const { return references_[cluster]; }
+  [[nodiscard]] std::pair<Subtree, Subtree> children(Subtree cluster) const { return {joined(cluster).left, joined(cluster).right}; }
+
+  void join(std::uint32_t number, std::uint32_t left, std::uint32_t right) { joined_[number] = {left, right, count(left) + count(right)}; }
+  [[nodiscard]] std::uint32_t cluster_of(std::uint32_t number) const { return static_cast<std::uint32_t>(references_.size()) + number; }
+
+ private:
+  struct Joined {
+    std::uint32_t left, right, count;
+  };
+
+  [[nodiscard]] bool is_single(Subtree cluster) const { return cluster < references_.size(); }
+  [[nodiscard]] const Joined& joined(Subtree cluster) const { return joined_[cluster - references_.size()]; }
+
+  const HugeVector<PrimitiveReference>& references_;
+  HugeVector<Joined> joined_;
+};
+
+// A cluster on its place: its box, and its number in the lane where a reference keeps its id.
+using Cluster = PrimitiveReference;
+
+Cluster make_cluster(const Box4& box, std::uint32_t number) {
+  Int4 lower = reinterpret_cast<Int4>(box.lower);
+  lower[3] = static_cast<std::int32_t>(number);
+  return {reinterpret_cast<Float4>(lower), box.upper};
+}
+
+std::uint32_t number_of(const Cluster& cluster) {
+  return static_cast<std::uint32_t>(reinterpret_cast<Int4>(cluster.lower)[3]);
+}
+
+class Clustering {
+ public:
+  Clustering(const HugeVector<PrimitiveReference>& references, ClusterTopology& topology, std::uint32_t radius, float area_scale)
+      : topology_(topology),
+        radius_(radius),
+        area_scale_(area_scale),
+        clusters_(references.size()),
+        next_(references.size()),
+        neighbours_(references.size()) {
+    parallel_for(references.size(), kChunk,
+                 [&](std::size_t i) { clusters_[i] = make_cluster(references[i].box(), static_cast<std::uint32_t>(i)); });
+  }
+
+  void run() {
+    for (int round = 0; clusters_.size() > 1; ++round) {
+      if (round < kSearchRounds) {
+        find_neighbours();
+      } else {
+        parallel_for(clusters_.size(), kChunk,
+                     [&](std::size_t i) { neighbours_[i] = static_cast<std::uint32_t>((i ^ 1U) < clusters_.size() ? i ^ 1U : i); });
+      }
+      join_pairs();
+    }
+  }
+
+ private:
+  // Each pair of places within the radius is measured once in a chunk, and offered to both.
+  void find_neighbours() {
+    const std::size_t count = clusters_.size();
+    parallel_chunks(count, kChunk, [&](std::size_t /*chunk*/, std::size_t first, std::size_t last) {
+      const std::size_t begin = first > radius_ ? first - radius_ : 0;
+      const std::size_t end = std::min(count, last + radius_);
+      std::vector<float> least(end - begin, std::numeric_limits<float>::infinity());
+      std::vector<std::uint32_t> nearest(end - begin, std::numeric_limits<std::uint32_t>::max());
+      const auto offer = [&](std::size_t to, std::size_t partner, float area) {
+        const bool is_better = area < least[to - begin] || (area == least[to - begin] && partner == (to ^ 1U));
+        if (!is_better && nearest[to - begin] != std::numeric_limits<std::uint32_t>::max()) return;
+        least[to - begin] = area;
+        nearest[to - begin] = static_cast<std::uint32_t>(partner);
+      };
+      for (std::size_t i = begin; i < last; ++i) {
+        const Box4 box = clusters_[i].box();
+        const std::size_t stop = std::min(end, i + radius_ + 1);
+        // Of two places before the chunk neither wants to know.
+        for (std::size_t j = i < first ? first : i + 1; j < stop; ++j) {
+          Box4 joined = clusters_[j].box();
+          joined.grow(box);
+          const float area = scaled_half_area(joined, area_scale_);
+          offer(i, j, area);
+          offer(j, i, area);
+        }
+      }
+      for (std::size_t i = first; i < last; ++i) neighbours_[i] = nearest[i - begin];
+    });
+  }
+
+  // Joins those that chose each other, at the place of the first; the others keep their order.
+  void join_pairs() {
+    const std::size_t count = clusters_.size();
+    struct Chunk {
+      std::uint32_t pairs = 0;
+      std::uint32_t kept = 0;
+    };
+    std::vector<Chunk> chunks((count + kChunk - 1) / kChunk);
+    const auto is_pair = [&](std::size_t i) { return neighbours_[i] != i && neighbours_[neighbours_[i]] == i; };
+    parallel_chunks(count, kChunk, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+      Chunk counts;
+      for (std::size_t i = first; i < last; ++i) {
+        const bool pairs = is_pair(i);
+        counts.pairs += pairs && i < neighbours_[i] ? 1 : 0;
+        counts.kept += !pairs || i < neighbours_[i] ? 1 : 0;
+      }
+      chunks[chunk] = counts;
+    });
+    std::uint32_t kept = 0;
+    for (Chunk& chunk : chunks) {
+      joined_count_ += std::exchange(chunk.pairs, joined_count_);
+      kept += std::exchange(chunk.kept, kept);
+    }
+    parallel_chunks(count, kChunk, [&](std::size_t id, std::size_t first, std::size_t last) {
+      Chunk place = chunks[id];
+      for (std::size_t i = first; i < last; ++i) {
+        if (!is_pair(i)) {
+          next_[place.kept++] = clusters_[i];
+          continue;
+        }
+        const std::size_t partner = neighbours_[i];
+        if (partner < i) continue;
+        Box4 box = clusters_[i].box();
+        box.grow(clusters_[partner].box());
+        topology_.join(place.pairs, number_of(clusters_[i]), number_of(clusters_[partner]));
+        next_[place.kept++] = make_cluster(box, topology_.cluster_of(place.pairs++));
+      }
+    });
+    next_.resize(kept);
+    clusters_.swap(next_);
+    next_.resize(kept);
+  }
+
+  ClusterTopology& topology_;
+  std::size_t radius_;
+  float area_scale_;
+  HugeVector<Cluster> clusters_;
+  HugeVector<Cluster> next_;
+  HugeVector<std::uint32_t> neighbours_;
+  std::uint32_t joined_count_ = 0;
+};
+
+}  // namespace
+
+Bvh2 build_ploc(const ReferenceList& list, const BottomUpSettings& settings) {
+  if (list.references.empty()) return {};
+  HugeVector<PrimitiveReference> references = sort_by_morton_code(list).references;
+  ClusterTopology topology(references);
+  Clustering(references, topology, settings.radius, AreaMeasure(list.bounds).scale()).run();
+  return emit_hierarchy(topology, references.size(), list.bounds, settings);
+}
+
+}  // namespace grove
