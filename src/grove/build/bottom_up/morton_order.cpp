@@ -1,6 +1,7 @@
 #include "grove/build/bottom_up/morton_order.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "grove/base/parallel.h"
@@ -11,50 +12,81 @@ namespace grove {
 namespace {
 
 constexpr std::size_t kGrain = 16384;
-constexpr int kCoarseBits = 14;
+constexpr int kCoarseBits = 14;  // per axis
 constexpr int kFineBits = 21;
 
-void make_codes(const HugeVector<PrimitiveReference>& references, const Box4& centres, int bits, HugeVector<KeyedIndex>& items) {
-  const Float4 extent = centres.upper - centres.lower;
-  const float longest = std::max({static_cast<float>(extent[0]), static_cast<float>(extent[1]), static_cast<float>(extent[2])});
-  const auto cells = static_cast<float>(1U << static_cast<unsigned>(bits));
-  // A shade below the number of cells, so that the last centre lies in the last cell. Where all centres agree, so do all codes.
-  const float ratio = cells * (1.0F - 0x1p-22F) / longest;
-  const float scale = longest > 0.0F && ratio <= std::numeric_limits<float>::max() ? ratio : 0.0F;
-  const auto most = static_cast<std::int32_t>(cells) - 1;
-  parallel_for(references.size(), kGrain, [&](std::size_t i) {
-    const Int4 cell = __builtin_convertvector((references[i].doubled_centre() - centres.lower) * splat(scale), Int4);
-    const auto clamped = [&](int axis) { return static_cast<std::uint32_t>(std::clamp(static_cast<std::int32_t>(cell[axis]), 0, most)); };
-    items[i] = {morton_code(clamped(0), clamped(1), clamped(2)), static_cast<std::uint32_t>(i)};
-  });
-  radix_sort(items, 3 * bits);
-}
+// Codes of centres in a grid of 2^bits cells a side over a cube around all of them.
+class Grid {
+ public:
+  Grid(const Box4& centres, int bits) : lower_(centres.lower), most_((1 << bits) - 1) {
+    const Float4 extent = centres.upper - centres.lower;
+    const float longest = std::max({static_cast<float>(extent[0]), static_cast<float>(extent[1]), static_cast<float>(extent[2])});
+    // A shade below the number of cells, so that the last centre lies in the last cell. Where all centres agree, so do all codes.
+    const float ratio = static_cast<float>(1 << bits) * (1.0F - 0x1p-22F) / longest;
+    if (longest > 0.0F && ratio <= std::numeric_limits<float>::max()) scale_ = ratio;
+  }
 
-bool are_crowded(const HugeVector<KeyedIndex>& items) {
-  std::vector<std::size_t> equal((items.size() + kGrain - 1) / kGrain, 0);
-  parallel_chunks(items.size(), kGrain, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-    for (std::size_t i = std::max<std::size_t>(first, 1); i < last; ++i) equal[chunk] += items[i].key == items[i - 1].key ? 1 : 0;
+  [[nodiscard]] std::uint64_t code(Float4 doubled_centre) const {
+    const Int4 cell = __builtin_convertvector((doubled_centre - lower_) * splat(scale_), Int4);
+    const auto clamped = [&](int axis) { return static_cast<std::uint32_t>(std::clamp(static_cast<std::int32_t>(cell[axis]), 0, most_)); };
+    return morton_code(clamped(0), clamped(1), clamped(2));
+  }
+
+ private:
+  Float4 lower_;
+  float scale_ = 0.0F;
+  std::int32_t most_;
+};
+
+// Whether more than one in 16 of sorted codes equals the one before it.
+template <typename CodeOf>
+bool are_crowded(std::size_t size, const CodeOf& code_of) {
+  std::vector<std::size_t> equal((size + kGrain - 1) / kGrain, 0);
+  parallel_chunks(size, kGrain, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+    for (std::size_t i = std::max<std::size_t>(first, 1); i < last; ++i) equal[chunk] += code_of(i) == code_of(i - 1) ? 1 : 0;
   });
   std::size_t total = 0;
   for (const std::size_t count : equal) total += count;
-  return 16 * total > items.size();
+  return 16 * total > size;
+}
+
+template <typename CodeOf, typename IndexOf>
+MortonOrder gather(const ReferenceList& list, const CodeOf& code_of, const IndexOf& index_of) {
+  MortonOrder order;
+  order.references.resize(list.references.size());
+  order.codes.resize(list.references.size());
+  parallel_for(list.references.size(), kGrain, [&](std::size_t i) {
+    order.references[i] = list.references[index_of(i)];
+    order.codes[i] = code_of(i);
+  });
+  return order;
 }
 
 }  // namespace
 
 MortonOrder sort_by_morton_code(const ReferenceList& list) {
+  const std::size_t size = list.references.size();
   const Box4 centres = measure_all(list.references).centres;
-  HugeVector<KeyedIndex> items(list.references.size());
-  make_codes(list.references, centres, kCoarseBits, items);
-  if (are_crowded(items)) make_codes(list.references, centres, kFineBits, items);
-  MortonOrder order;
-  order.references.resize(items.size());
-  order.codes.resize(items.size());
-  parallel_for(items.size(), kGrain, [&](std::size_t i) {
-    order.references[i] = list.references[items[i].index];
-    order.codes[i] = items[i].key;
+  {
+    // Code and index share a word, the index in the low bits, so that equal codes stay in order of index.
+    const int index_bits = std::bit_width(size);
+    const int bits = std::min(kCoarseBits, (64 - index_bits) / 3);
+    const std::uint64_t index_mask = (std::uint64_t{1} << index_bits) - 1;
+    const Grid grid(centres, bits);
+    HugeVector<std::uint64_t> words(size);
+    parallel_for(size, kGrain, [&](std::size_t i) { words[i] = grid.code(list.references[i].doubled_centre()) << index_bits | i; });
+    radix_sort(words, index_bits, index_bits + 3 * bits);
+    const auto code_of = [&](std::size_t i) { return words[i] >> index_bits; };
+    if (!are_crowded(size, code_of)) return gather(list, code_of, [&](std::size_t i) { return words[i] & index_mask; });
+  }
+  const Grid grid(centres, kFineBits);
+  HugeVector<KeyedIndex> items(size);
+  parallel_for(size, kGrain, [&](std::size_t i) {
+    items[i] = {grid.code(list.references[i].doubled_centre()), static_cast<std::uint32_t>(i)};
   });
-  return order;
+  radix_sort(items, 3 * kFineBits);
+  return gather(
+      list, [&](std::size_t i) { return items[i].key; }, [&](std::size_t i) { return items[i].index; });
 }
 
 }  // namespace grove

@@ -1,10 +1,10 @@
 #include "grove/build/bottom_up/ploc.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "grove/build/bottom_up/morton_order.h"
+#include "grove/build/bottom_up/neighbour_search.h"
 
 namespace grove {
 namespace {
@@ -78,33 +78,13 @@ class Clustering {
   }
 
  private:
-  // Each pair of places within the radius is measured once in a chunk, and offered to both.
   void find_neighbours() {
     const std::size_t count = clusters_.size();
     parallel_chunks(count, kChunk, [&](std::size_t /*chunk*/, std::size_t first, std::size_t last) {
       const std::size_t begin = first > radius_ ? first - radius_ : 0;
-      const std::size_t end = std::min(count, last + radius_);
-      std::vector<float> least(end - begin, std::numeric_limits<float>::infinity());
-      std::vector<std::uint32_t> nearest(end - begin, std::numeric_limits<std::uint32_t>::max());
-      const auto offer = [&](std::size_t to, std::size_t partner, float area) {
-        const bool is_better = area < least[to - begin] || (area == least[to - begin] && partner == (to ^ 1U));
-        if (!is_better && nearest[to - begin] != std::numeric_limits<std::uint32_t>::max()) return;
-        least[to - begin] = area;
-        nearest[to - begin] = static_cast<std::uint32_t>(partner);
-      };
-      for (std::size_t i = begin; i < last; ++i) {
-        const Box4 box = clusters_[i].box();
-        const std::size_t stop = std::min(end, i + radius_ + 1);
-        // Of two places before the chunk neither wants to know.
-        for (std::size_t j = i < first ? first : i + 1; j < stop; ++j) {
-          Box4 joined = clusters_[j].box();
-          joined.grow(box);
-          const float area = scaled_half_area(joined, area_scale_);
-          offer(i, j, area);
-          offer(j, i, area);
-        }
-      }
-      for (std::size_t i = first; i < last; ++i) neighbours_[i] = nearest[i - begin];
+      NeighbourSearch search({clusters_.data() + begin, std::min(count, last + radius_) - begin}, begin, area_scale_);
+      search.run(radius_);
+      for (std::size_t i = first; i < last; ++i) neighbours_[i] = static_cast<std::uint32_t>(begin + search.nearest(i - begin));
     });
   }
 

@@ -13,16 +13,15 @@ constexpr int kDigitBits = 11;
 constexpr std::size_t kDigitCount = std::size_t{1} << kDigitBits;
 constexpr std::size_t kChunk = 65536;
 
-}  // namespace
-
-void radix_sort(HugeVector<KeyedIndex>& items, int bits) {
+template <typename Item, typename KeyOf>
+void sort_by_digits(HugeVector<Item>& items, int first_bit, int end_bit, const KeyOf& key_of) {
   const std::size_t size = items.size();
   if (size < 2) return;
-  HugeVector<KeyedIndex> other(size);
+  HugeVector<Item> other(size);
   using Histogram = std::array<std::uint32_t, kDigitCount>;
   std::vector<Histogram> histograms((size + kChunk - 1) / kChunk);
-  for (int shift = 0; shift < bits; shift += kDigitBits) {
-    const auto digit = [shift](const KeyedIndex& item) { return (item.key >> shift) & (kDigitCount - 1); };
+  for (int shift = first_bit; shift < end_bit; shift += kDigitBits) {
+    const auto digit = [&](const Item& item) { return (key_of(item) >> shift) & (kDigitCount - 1); };
     parallel_chunks(size, kChunk, [&](std::size_t chunk, std::size_t first, std::size_t last) {
       Histogram& histogram = histograms[chunk];
       histogram.fill(0);
@@ -43,6 +42,16 @@ void radix_sort(HugeVector<KeyedIndex>& items, int bits) {
     });
     items.swap(other);
   }
+}
+
+}  // namespace
+
+void radix_sort(HugeVector<std::uint64_t>& words, int first_bit, int end_bit) {
+  sort_by_digits(words, first_bit, end_bit, [](std::uint64_t word) { return word; });
+}
+
+void radix_sort(HugeVector<KeyedIndex>& items, int bits) {
+  sort_by_digits(items, 0, bits, [](const KeyedIndex& item) { return item.key; });
 }
 
 }  // namespace grove
