@@ -7,6 +7,7 @@
 #include "grove/base/timer.h"
 #include "grove/build/cost_model.h"
 #include "grove/registry/hierarchy_statistics.h"
+#include "grove/registry/spec.h"
 #include "grove/registry/structure_accelerator.h"
 #include "grove/traverse/traceable_hierarchy.h"
 
