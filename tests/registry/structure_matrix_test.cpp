@@ -10,13 +10,14 @@
 #include "grove/base/random.h"
 #include "registry/matrix_geometry.h"
 #include "registry/matrix_rays.h"
+#include "registry/matrix_specs.h"
 
 namespace grove::test {
 namespace {
 
 // The representative specs, and each value of each key on its own.
 std::vector<std::string> matrix_specs() {
-  std::vector<std::string> specs(representative_specs().begin(), representative_specs().end());
+  std::vector<std::string> specs = representatives();
   for (const StructureFamily& family : structure_families()) {
     for (const SpecKey& key : family.keys) {
       std::vector<std::string> values(key.values.begin(), key.values.end());
@@ -129,9 +130,7 @@ TEST_P(StructureMatrix, StatisticsAddUp) {
 INSTANTIATE_TEST_SUITE_P(All, StructureMatrix,
                          testing::Combine(testing::ValuesIn(matrix_specs()), testing::Range<std::size_t>(0, geometries().size())),
                          [](const auto& test) {
-                           std::string name = std::get<0>(test.param) + "_" + geometries()[std::get<1>(test.param)].name;
-                           for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-                           return name;
+                           return as_test_name(std::get<0>(test.param) + "_" + geometries()[std::get<1>(test.param)].name);
                          });
 
 class EachStructure : public testing::TestWithParam<std::string> {};
@@ -208,11 +207,7 @@ TEST_P(EachStructure, BuildsAMillionPrimitivesInOnePoint) {
   EXPECT_EQ(hit.primitive, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EachStructure, testing::ValuesIn(built_specs()), [](const auto& test) {
-  std::string name = test.param;
-  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, EachStructure, testing::ValuesIn(built_specs()), [](const auto& test) { return as_test_name(test.param); });
 
 }  // namespace
 }  // namespace grove::test

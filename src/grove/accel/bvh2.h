@@ -38,8 +38,8 @@ static_assert(sizeof(Bvh2Node) == 64);
 
 /// A binary bounding volume hierarchy over axis-aligned boxes, as plain data.
 ///
-/// Node 0 is the root and its children are nodes of a higher number than their parent. A hierarchy whose root is a leaf has no nodes;
-/// `references` then holds that leaf. Knows boxes and primitive ids, no geometry.
+/// Node 0 is the root. Builders leave the nodes in depth-first order, which the passes that say so rely on; rotations do not keep it. A
+/// hierarchy whose root is a leaf has no nodes; `references` then holds that leaf. Knows boxes and primitive ids, no geometry.
 struct Bvh2 {
   /// Builders never go deeper, so traversals keep their stack in an array of this size.
   static constexpr std::uint32_t kMaxDepth = 96;

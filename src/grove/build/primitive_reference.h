@@ -32,6 +32,11 @@ struct PrimitiveReference {
 
 static_assert(sizeof(PrimitiveReference) == 32);
 
+[[nodiscard]] inline PrimitiveReference make_reference(const Box& box, std::uint32_t primitive) {
+  return {Float4{box.lower.x, box.lower.y, box.lower.z, std::bit_cast<float>(primitive)},
+          Float4{box.upper.x, box.upper.y, box.upper.z, 0.0F}};
+}
+
 /// References of a geometry, in order of id, without the primitives that can never be hit.
 struct ReferenceList {
   HugeVector<PrimitiveReference> references;
@@ -52,8 +57,7 @@ template <Geometry G>
     for (std::size_t i = first; i < last; ++i) {
       const Box box = geometry.bounds(i);
       if (box.is_empty()) continue;
-      const float id = std::bit_cast<float>(static_cast<std::uint32_t>(i));
-      list.references[kept++] = {Float4{box.lower.x, box.lower.y, box.lower.z, id}, Float4{box.upper.x, box.upper.y, box.upper.z, 0.0F}};
+      list.references[kept++] = make_reference(box, static_cast<std::uint32_t>(i));
       chunk_bounds[chunk].grow(box);
     }
     chunk_first[chunk + 1] = kept - first;

@@ -47,14 +47,25 @@ Ray to_object(const Ray& ray, const Transform& transform) {
 
 InstanceSet::InstanceSet(std::vector<Instance> instances) : instances_(std::move(instances)) {
   if (instances_.size() >= kInvalidId) throw InputError("a scene may have at most 2^32 - 2 instances");
-  bounds_.reserve(instances_.size());
-  for (const Instance& instance : instances_) {
-    Box box;
-    if (instance.object && instance.object_to_world.is_invertible()) box = instance.object_to_world.box(instance.object->bounds());
-    // As for triangles: what lies beyond the limit, or overflows, cannot be hit.
-    const bool usable = Ray::is_within(box.lower, kMaxCoordinate) && Ray::is_within(box.upper, kMaxCoordinate);
-    bounds_.push_back(usable ? box : Box{});
-  }
+  refresh_bounds();
+}
+
+void InstanceSet::move_instance(std::size_t i, const Transform& object_to_world) {
+  instances_[i].object_to_world = object_to_world;
+  bounds_[i] = measure(instances_[i]);
+}
+
+void InstanceSet::refresh_bounds() {
+  bounds_.resize(instances_.size());
+  for (std::size_t i = 0; i < instances_.size(); ++i) bounds_[i] = measure(instances_[i]);
+}
+
+Box InstanceSet::measure(const Instance& instance) {
+  Box box;
+  if (instance.object && instance.object_to_world.is_invertible()) box = instance.object_to_world.box(instance.object->bounds());
+  // As for triangles: what lies beyond the limit, or overflows, cannot be hit.
+  const bool usable = Ray::is_within(box.lower, kMaxCoordinate) && Ray::is_within(box.upper, kMaxCoordinate);
+  return usable ? box : Box{};
 }
 
 InstanceSet::PreparedRay InstanceSet::prepare(const Ray& ray) {

@@ -28,6 +28,12 @@ class InstanceSet {
   InstanceSet() = default;
   explicit InstanceSet(std::vector<Instance> instances);
 
+  /// Puts instance i elsewhere. Structures over the set must be updated before they are traced again (Accelerator::update); what the
+  /// instance refers to stays as it is.
+  void move_instance(std::size_t i, const Transform& object_to_world);
+  /// Measures all instances anew, after objects that they refer to have been updated. O(n).
+  void refresh_bounds();
+
   [[nodiscard]] std::size_t size() const { return instances_.size(); }
   [[nodiscard]] const Instance& instance(std::size_t i) const { return instances_[i]; }
 
@@ -50,6 +56,7 @@ class InstanceSet {
   void locate(Hit& /*hit*/) const {}
 
  private:
+  [[nodiscard]] static Box measure(const Instance& instance);
   bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, TraversalCounts* counts) const;
   bool occluded(std::size_t i, const PreparedRay& ray, TraversalCounts* counts) const;
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// How a structure's leaves reach the primitives: by slot, the position in its list of references. Every storage has `prefetch`, `intersect`
-// and `occluded` by slot; which one a geometry uses is LeafStorage<G>.
+// How a structure's leaves reach the primitives: by slot, the position in its list of references. Every storage has `refresh`, `prefetch`,
+// `intersect` and `occluded` by slot; which one a geometry uses is LeafStorage<G>.
 
 #include <cstdint>
 #include <span>
@@ -10,6 +10,7 @@
 #include "grove/base/parallel.h"
 #include "grove/geometry/geometry_concept.h"
 #include "grove/geometry/triangle_mesh.h"
+#include "grove/math/float4.h"
 
 namespace grove {
 
@@ -20,6 +21,18 @@ class IndirectLeaves {
   IndirectLeaves(const G& /*geometry*/, std::span<const std::uint32_t> /*references*/) {}
 
   [[nodiscard]] static std::size_t memory() { return 0; }
+
+  /// Bounds of the primitives in slots [first, first + count) as they are now. `all_hittable` becomes false when one can never be hit.
+  [[nodiscard]] Box4 refresh(const G& geometry, const std::uint32_t* references, std::uint32_t first, std::uint32_t count,
+                             bool& all_hittable) {
+    Box4 bounds = Box4::empty();
+    for (std::uint32_t slot = first; slot < first + count; ++slot) {
+      const Box box = geometry.bounds(references[slot]);
+      if (box.is_empty()) all_hittable = false;
+      bounds.grow(Box4{to_float4(box.lower), to_float4(box.upper)});
+    }
+    return bounds;
+  }
 
   void prefetch(const std::uint32_t* references, std::uint32_t slot) const { __builtin_prefetch(references + slot); }
 
@@ -50,6 +63,24 @@ class PackedTriangleLeaves {
   }
 
   [[nodiscard]] std::size_t memory() const { return corners_.size() * sizeof(TriangleCorners); }
+
+  /// As IndirectLeaves::refresh; fetches the corners again.
+  [[nodiscard]] Box4 refresh(const TriangleMesh& mesh, const std::uint32_t* references, std::uint32_t first, std::uint32_t count,
+                             bool& all_hittable) {
+    const std::span<const Vec3> vertices = mesh.vertices();
+    const std::span<const Triangle> triangles = mesh.triangles();
+    Box4 bounds = Box4::empty();
+    for (std::uint32_t slot = first; slot < first + count; ++slot) {
+      const Triangle& triangle = triangles[references[slot]];
+      const Vec3 corners[3] = {vertices[triangle.x], vertices[triangle.y], vertices[triangle.z]};
+      for (const Vec3& corner : corners) {
+        if (!Ray::is_within(corner, kMaxCoordinate)) all_hittable = false;
+        bounds.grow(to_float4(corner));
+      }
+      corners_[slot] = TriangleCorners(corners[0], corners[1], corners[2]);
+    }
+    return bounds;
+  }
 
   void prefetch(const std::uint32_t* /*references*/, std::uint32_t slot) const { __builtin_prefetch(corners_.data() + slot); }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "grove/base/error.h"
@@ -50,6 +51,12 @@ std::uint32_t SphereSet::add_part(std::vector<Sphere> spheres) {
     spheres_.insert(spheres_.end(), spheres.begin(), spheres.end());
   }
   return static_cast<std::uint32_t>(part_first_.size() - 1);
+}
+
+void SphereSet::move_spheres(std::vector<Sphere> spheres) {
+  if (spheres.size() != spheres_.size())
+    throw InputError("the set has " + std::to_string(spheres_.size()) + " spheres, but " + std::to_string(spheres.size()) + " are given");
+  spheres_ = std::move(spheres);
 }
 
 Box SphereSet::bounds(std::size_t i) const {

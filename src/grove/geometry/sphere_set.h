@@ -30,6 +30,10 @@ class SphereSet {
   /// Appends a part and returns its number.
   std::uint32_t add_part(std::vector<Sphere> spheres);
 
+  /// Replaces every sphere, over all parts. Structures over the set must be updated before they are traced again (Accelerator::update).
+  /// Throws InputError when there are not as many as size().
+  void move_spheres(std::vector<Sphere> spheres);
+
   [[nodiscard]] std::size_t size() const { return spheres_.size(); }
   [[nodiscard]] std::size_t part_count() const { return part_first_.size(); }
   [[nodiscard]] const Sphere& sphere(std::size_t i) const { return spheres_[i]; }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "grove/base/error.h"
+#include "grove/base/parallel.h"
 #include "grove/geometry/clip_triangle.h"
 #include "grove/geometry/part_table.h"
 
@@ -32,6 +33,16 @@ std::uint32_t TriangleMesh::add_part(std::vector<Vec3> vertices, std::vector<Tri
   vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
   for (const Triangle& triangle : triangles) triangles_.push_back(triangle + vertex_offset);
   return part;
+}
+
+void TriangleMesh::move_vertices(std::span<const Vec3> positions) {
+  if (positions.size() != vertices_.size())
+    throw InputError("the mesh has " + std::to_string(vertices_.size()) + " vertices, but " + std::to_string(positions.size()) +
+                     " positions are given");
+  parallel_ranges(positions.size(), 65536, [&](std::size_t first, std::size_t last) {
+    std::copy(positions.begin() + static_cast<std::ptrdiff_t>(first), positions.begin() + static_cast<std::ptrdiff_t>(last),
+              vertices_.begin() + static_cast<std::ptrdiff_t>(first));
+  });
 }
 
 Box TriangleMesh::bounds(std::size_t i) const {

@@ -31,6 +31,10 @@ class TriangleMesh {
   /// Throws as the constructor does, and leaves the mesh as it was.
   std::uint32_t add_part(std::vector<Vec3> vertices, std::vector<Triangle> triangles);
 
+  /// Puts every vertex, over all parts, where `positions` says. Structures over the mesh must be updated before they are traced again
+  /// (Accelerator::update). Throws InputError when there are not as many as vertices().
+  void move_vertices(std::span<const Vec3> positions);
+
   /// Number of triangles, over all parts.
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
   [[nodiscard]] std::size_t part_count() const { return part_first_triangle_.size(); }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grove/geometry/traceable.h"
+#include "grove/registry/update.h"
 
 namespace grove {
 
@@ -34,8 +35,8 @@ struct NodeView {
   std::uint32_t reference_count = 0;  ///< leaves only
 };
 
-/// A built structure over one geometry, its type erased: one virtual call a batch, none a node. Immutable; any number of threads may
-/// trace it. Made by `build` (registry/registry.h).
+/// A built structure over one geometry, its type erased: one virtual call a batch, none a node. Any number of threads may trace it;
+/// it changes only in `update`. Made by `build` (registry/registry.h).
 class Accelerator : public Traceable {
  public:
   /// The canonical spec: family and the keys that differ from their defaults.
@@ -43,6 +44,13 @@ class Accelerator : public Traceable {
   [[nodiscard]] virtual const StructureStatistics& statistics() const = 0;
   /// Calls `visit` for each node, parents before children.
   virtual void visit_nodes(const std::function<void(const NodeView&)>& visit) const = 0;
+
+  /// Follows the geometry after its primitives have moved (TriangleMesh::move_vertices and the like), so that hits are again those of a
+  /// structure built anew, and says how. Primitives may not have been added or removed, but may have become unhittable or hittable. Where a
+  /// form has no refit it is rebuilt. Must not run while rays are traced. Runs in parallel in the caller's oneTBB arena; the result does not depend
+  /// on the number of threads. `statistics` afterwards: cost, depth and references are right; node and leaf counts and histograms are those of
+  /// the last rebuild of parts or all, since rotations keep numbers and sizes but not depths.
+  virtual UpdateReport update(const UpdateSettings& settings) = 0;
 
   /// Closest hits: hits[i] answers rays[i]. The spans must be of equal length. Runs in the calling thread; split the batch to use more.
   /// When `counts` is not empty it must be as long, and counts[i] is set to what ray i did.

@@ -7,27 +7,41 @@ namespace grove {
 namespace {
 
 template <Geometry G>
-std::unique_ptr<Accelerator> build_over(std::string spec, std::shared_ptr<const G> geometry) {
+StructureState<Brute> look_at(const G& geometry) {
   const Timer timer;
-  Box bounds;
-  std::uint64_t references = 0;
-  for (std::size_t i = 0; i < geometry->size(); ++i) {
-    const Box box = geometry->bounds(i);
+  StructureState<Brute> state;
+  StructureStatistics& statistics = state.statistics;
+  for (std::size_t i = 0; i < geometry.size(); ++i) {
+    const Box box = geometry.bounds(i);
     if (box.is_empty()) continue;
-    bounds.grow(box);
-    ++references;
+    state.bounds.grow(box);
+    ++statistics.references;
   }
-  StructureStatistics statistics;
-  statistics.primitives = geometry->size();
-  statistics.references = references;
+  statistics.primitives = geometry.size();
   statistics.nodes = 1;
   statistics.leaves = 1;
-  statistics.expected_cost = static_cast<double>(references);
+  statistics.expected_cost = static_cast<double>(statistics.references);
   statistics.depths = {1};
   statistics.build_seconds = timer.seconds();
+  return state;
+}
+
+template <Geometry G>
+UpdateReport update(StructureState<Brute>& state, const G& geometry, const UpdateSettings& /*settings*/) {
+  UpdateReport report;
+  report.built_cost = state.statistics.expected_cost;
+  state = look_at(geometry);
+  report.cost = state.statistics.expected_cost;
+  report.rebuilt_references = state.statistics.references;
+  report.seconds = state.statistics.build_seconds;
+  return report;
+}
+
+template <Geometry G>
+std::unique_ptr<Accelerator> build_over(std::string spec, std::shared_ptr<const G> geometry) {
   const auto visit = [](const Brute&, const std::function<void(const NodeView&)>&) {};
-  return std::make_unique<StructureAccelerator<Brute, G>>(Brute{}, std::move(geometry), std::move(spec), bounds, std::move(statistics),
-                                                          visit);
+  StructureState<Brute> state = look_at(*geometry);
+  return std::make_unique<StructureAccelerator<Brute, G>>(std::move(state), std::move(geometry), std::move(spec), visit, update<G>);
 }
 
 }  // namespace

@@ -10,10 +10,11 @@ namespace {
 template <Geometry G>
 std::unique_ptr<Accelerator> build_over(const Spec& spec, std::shared_ptr<const G> geometry) {
   const BvhOptions options(spec);
-  return make_hierarchy_accelerator<Bvh2>(spec, std::move(geometry), [&](const G& set) {
+  const auto build = [options](const G& set) {
     Bvh2 bvh = build_binary_hierarchy(set, options);
     return options.leaves_are_decided_later() ? collapse_leaves(bvh, collapse_settings(options)) : bvh;
-  });
+  };
+  return make_hierarchy_accelerator<Bvh2>(spec, std::move(geometry), build, top_down_settings(options));
 }
 
 }  // namespace

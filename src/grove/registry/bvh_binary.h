@@ -16,13 +16,22 @@
 
 namespace grove {
 
-/// Builds by the split that `options` name.
-template <Geometry G>
-[[nodiscard]] Bvh2 build_by_split(const G& geometry, const BvhOptions& options) {
+/// How `options` want sets to be split from the top, by bins where they name a builder of another kind.
+[[nodiscard]] inline TopDownSettings top_down_settings(const BvhOptions& options) {
   static const std::map<std::string_view, ObjectSplit> kObjectSplits = {{"binned", ObjectSplit::binned},
                                                                         {"sweep", ObjectSplit::sweep},
                                                                         {"object-median", ObjectSplit::object_median},
                                                                         {"spatial-median", ObjectSplit::spatial_median}};
+  TopDownSettings settings;
+  if (const auto found = kObjectSplits.find(options.split); found != kObjectSplits.end()) settings.split = found->second;
+  if (options.cost == "equation-2") settings.cost.split_cost = SplitCost::equation_2;
+  settings.leaf_size = options.leaf_size;
+  return settings;
+}
+
+/// Builds by the split that `options` name.
+template <Geometry G>
+[[nodiscard]] Bvh2 build_by_split(const G& geometry, const BvhOptions& options) {
   if (options.split == "lbvh" || options.split == "ploc") {
     BottomUpSettings settings;
     settings.leaf_size = options.leaves_are_decided_later() ? 1 : options.leaf_size;
@@ -30,11 +39,9 @@ template <Geometry G>
     const ReferenceList list = list_references(geometry);
     return options.split == "lbvh" ? build_lbvh(list, settings) : build_ploc(list, settings);
   }
-  TopDownSettings settings;
-  if (options.cost == "equation-2") settings.cost.split_cost = SplitCost::equation_2;
-  settings.leaf_size = options.leaves_are_decided_later() ? 1 : options.leaf_size;
+  TopDownSettings settings = top_down_settings(options);
+  if (options.leaves_are_decided_later()) settings.leaf_size = 1;
   if (options.split == "spatial") return build_with_spatial_splits(geometry, settings);
-  settings.split = kObjectSplits.at(options.split);
   return build_top_down(list_references(geometry), settings);
 }
 

@@ -9,7 +9,7 @@ std::unique_ptr<Accelerator> build_bvh8(const Spec& spec, const GeometryPointer&
   const BvhOptions options(spec);
   return std::visit(
       [&](const auto& set) {
-        return make_hierarchy_accelerator<WideBvh<8>>(spec, set, [&](const auto& primitives) {
+        return make_hierarchy_accelerator<WideBvh<8>>(spec, set, [options](const auto& primitives) {
           return widen<8>(build_binary_hierarchy(primitives, options), collapse_settings(options));
         });
       },

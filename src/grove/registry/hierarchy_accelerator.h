@@ -7,31 +7,41 @@
 #include "grove/base/timer.h"
 #include "grove/build/cost_model.h"
 #include "grove/registry/hierarchy_statistics.h"
+#include "grove/registry/hierarchy_update.h"
 #include "grove/registry/spec.h"
 #include "grove/registry/structure_accelerator.h"
 #include "grove/traverse/traceable_hierarchy.h"
 
 namespace grove {
 
-/// Builds a hierarchy over a geometry by `build(geometry)`, timing it with its leaves, and wraps it as an Accelerator.
+/// Builds a hierarchy over a geometry by `build(geometry)`, timing it with its leaves.
 template <typename Hierarchy, Geometry G, typename Build>
-[[nodiscard]] std::unique_ptr<Accelerator> make_hierarchy_accelerator(const Spec& spec, std::shared_ptr<const G> geometry,
-                                                                      const Build& build) {
-  using Structure = TraceableHierarchy<Hierarchy, G>;
+[[nodiscard]] StructureState<TraceableHierarchy<Hierarchy, G>> build_hierarchy(const G& geometry, const Build& build) {
   const Timer timer;
-  Hierarchy hierarchy = build(*geometry);
-  GROVE_ASSERT(hierarchy.validate(geometry->size()).empty());
-  Structure structure(std::move(hierarchy), *geometry);
+  Hierarchy hierarchy = build(geometry);
+  GROVE_ASSERT(hierarchy.validate(geometry.size()).empty());
+  TraceableHierarchy<Hierarchy, G> structure(std::move(hierarchy), geometry);
   const double seconds = timer.seconds();
   StructureStatistics statistics = count_nodes(structure.bvh);
   statistics.expected_cost = expected_cost(structure.bvh, CostModel{});
   statistics.bytes = structure.memory();
-  statistics.primitives = geometry->size();
+  statistics.primitives = geometry.size();
   statistics.build_seconds = seconds;
   const Box bounds = structure.bvh.bounds;
+  return {std::move(structure), bounds, std::move(statistics)};
+}
+
+/// Builds a hierarchy over a geometry and wraps it as an Accelerator. `build` is kept for rebuilding; parts are rebuilt by `part_settings`.
+template <typename Hierarchy, Geometry G, typename Build>
+[[nodiscard]] std::unique_ptr<Accelerator> make_hierarchy_accelerator(const Spec& spec, std::shared_ptr<const G> geometry, Build build,
+                                                                      const TopDownSettings& part_settings = {}) {
+  using Structure = TraceableHierarchy<Hierarchy, G>;
+  const auto rebuild = [build = std::move(build)](const G& set) { return build_hierarchy<Hierarchy>(set, build); };
+  StructureState<Structure> state = rebuild(*geometry);
   const auto view = [](const Structure& s, const std::function<void(const NodeView&)>& visit) { view_nodes(s.bvh, visit); };
-  return std::make_unique<StructureAccelerator<Structure, G>>(std::move(structure), std::move(geometry), spec.canonical(), bounds,
-                                                              std::move(statistics), view);
+  HierarchyUpdater<Hierarchy, G, decltype(rebuild)> updater(rebuild, part_settings);
+  return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), view,
+                                                              std::move(updater));
 }
 
 }  // namespace grove

@@ -10,28 +10,38 @@
 
 namespace grove {
 
+/// A structure as it stands, and what is known of it.
+template <typename Structure>
+struct StructureState {
+  Structure structure;
+  Box bounds;
+  StructureStatistics statistics;
+};
+
 /// The bridge from a structure and a geometry, both known at compile time, to Accelerator. `Structure` is plain data for which the
-/// functions trace_closest(structure, geometry, ray, hit, counter) and trace_any(…) exist (rooms accel and traverse); `visit_nodes` is
-/// passed in since only the registry's row knows how the structure is drawn.
+/// functions trace_closest(structure, geometry, ray, hit, counter) and trace_any(…) exist (rooms accel and traverse); how it is drawn and
+/// how it follows its geometry is passed in, since only the registry's row knows.
 template <typename Structure, Geometry G>
 class StructureAccelerator final : public Accelerator {
  public:
+  using State = StructureState<Structure>;
   using NodeVisitor = void (*)(const Structure&, const std::function<void(const NodeView&)>&);
+  using Updater = std::function<UpdateReport(State&, const G&, const UpdateSettings&)>;
 
-  StructureAccelerator(Structure structure, std::shared_ptr<const G> geometry, std::string spec, const Box& bounds,
-                       StructureStatistics statistics, NodeVisitor node_visitor)
-      : structure_(std::move(structure)),
+  StructureAccelerator(State state, std::shared_ptr<const G> geometry, std::string spec, NodeVisitor node_visitor, Updater updater)
+      : state_(std::move(state)),
         geometry_(std::move(geometry)),
         spec_(std::move(spec)),
-        bounds_(bounds),
-        statistics_(std::move(statistics)),
-        node_visitor_(node_visitor) {}
+        node_visitor_(node_visitor),
+        updater_(std::move(updater)) {}
 
   [[nodiscard]] const std::string& spec() const override { return spec_; }
-  [[nodiscard]] const StructureStatistics& statistics() const override { return statistics_; }
-  [[nodiscard]] Box bounds() const override { return bounds_; }
+  [[nodiscard]] const StructureStatistics& statistics() const override { return state_.statistics; }
+  [[nodiscard]] Box bounds() const override { return state_.bounds; }
 
-  void visit_nodes(const std::function<void(const NodeView&)>& visit) const override { node_visitor_(structure_, visit); }
+  void visit_nodes(const std::function<void(const NodeView&)>& visit) const override { node_visitor_(state_.structure, visit); }
+
+  UpdateReport update(const UpdateSettings& settings) override { return updater_(state_, *geometry_, settings); }
 
   [[nodiscard]] Hit closest_hit(const Ray& ray, TraversalCounts* counts) const override {
     if (counts == nullptr) return closest(ray, NoCounter{});
@@ -73,7 +83,7 @@ class StructureAccelerator final : public Accelerator {
     Hit hit;
     if (!ray.is_traceable()) return hit;
     hit.t = ray.t_max;
-    trace_closest(structure_, *geometry_, ray, hit, counter);
+    trace_closest(state_.structure, *geometry_, ray, hit, counter);
     if (hit) {
       geometry_->locate(hit);
     } else {
@@ -84,15 +94,14 @@ class StructureAccelerator final : public Accelerator {
 
   template <typename C>
   bool any(const Ray& ray, C counter) const {
-    return ray.is_traceable() && trace_any(structure_, *geometry_, ray, counter);
+    return ray.is_traceable() && trace_any(state_.structure, *geometry_, ray, counter);
   }
 
-  Structure structure_;
+  State state_;
   std::shared_ptr<const G> geometry_;
   std::string spec_;
-  Box bounds_;
-  StructureStatistics statistics_;
   NodeVisitor node_visitor_;
+  Updater updater_;
 };
 
 }  // namespace grove
