@@ -17,6 +17,8 @@ class Contender {
   [[nodiscard]] virtual std::string name() const = 0;
   /// Builds anew, with `threads` threads, letting go of what was built before. Returns seconds.
   virtual double build(int threads) = 0;
+  /// Lets go of what was built.
+  virtual void release() = 0;
   /// Closest hits in the calling thread; `primitive` counts over the whole mesh.
   virtual void intersect(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
   /// Any hits in the calling thread.
@@ -24,7 +26,11 @@ class Contender {
 };
 
 [[nodiscard]] std::unique_ptr<Contender> make_grove(std::shared_ptr<const TriangleMesh> mesh, std::string spec);
-/// Embree 3 with medium quality and the robust flag.
-[[nodiscard]] std::unique_ptr<Contender> make_embree(std::shared_ptr<const TriangleMesh> mesh);
+/// The qualities that Embree builds in: along a Morton curve, by binned splits, with spatial splits.
+enum class EmbreeQuality { low, medium, high };
+
+/// Embree 3 with the robust flag.
+[[nodiscard]] std::unique_ptr<Contender> make_embree(std::shared_ptr<const TriangleMesh> mesh,
+                                                     EmbreeQuality quality = EmbreeQuality::medium);
 
 }  // namespace grove::bench

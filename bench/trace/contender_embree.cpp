@@ -12,12 +12,14 @@ namespace {
 
 class Embree final : public Contender {
  public:
-  explicit Embree(std::shared_ptr<const TriangleMesh> mesh) : mesh_(std::move(mesh)) {}
+  Embree(std::shared_ptr<const TriangleMesh> mesh, EmbreeQuality quality) : mesh_(std::move(mesh)), quality_(quality) {}
   ~Embree() override { release(); }
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
 
-  [[nodiscard]] std::string name() const override { return "embree"; }
+  [[nodiscard]] std::string name() const override {
+    return quality_ == EmbreeQuality::low ? "embree low" : quality_ == EmbreeQuality::medium ? "embree medium" : "embree high";
+  }
 
   double build(int threads) override {
     release();
@@ -25,8 +27,11 @@ class Embree final : public Contender {
     if (device_ == nullptr) throw Error("Embree gave no device");
     const Timer timer;
     scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_MEDIUM);
+    const RTCBuildQuality qualities[] = {RTC_BUILD_QUALITY_LOW, RTC_BUILD_QUALITY_MEDIUM, RTC_BUILD_QUALITY_HIGH};
+    const RTCBuildQuality quality = qualities[static_cast<int>(quality_)];
+    // High quality splits triangles, which the robust flag rules out.
+    rtcSetSceneFlags(scene_, quality_ == EmbreeQuality::high ? RTC_SCENE_FLAG_NONE : RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene_, quality);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     const auto vertices = mesh_->vertices();
     const auto triangles = mesh_->triangles();
@@ -36,11 +41,19 @@ class Embree final : public Contender {
     std::copy(vertices.begin(), vertices.end(), buffer);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0, sizeof(Triangle),
                                triangles.size());
+    rtcSetGeometryBuildQuality(geometry, quality);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene_);
     return timer.seconds();
+  }
+
+  void release() final {
+    if (scene_ != nullptr) rtcReleaseScene(scene_);
+    if (device_ != nullptr) rtcReleaseDevice(device_);  // also lifts its limit on oneTBB's threads
+    scene_ = nullptr;
+    device_ = nullptr;
   }
 
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const override {
@@ -89,22 +102,16 @@ class Embree final : public Contender {
     return query;
   }
 
-  void release() {
-    if (scene_ != nullptr) rtcReleaseScene(scene_);
-    if (device_ != nullptr) rtcReleaseDevice(device_);  // also lifts its limit on oneTBB's threads
-    scene_ = nullptr;
-    device_ = nullptr;
-  }
-
   std::shared_ptr<const TriangleMesh> mesh_;
+  EmbreeQuality quality_;
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
 };
 
 }  // namespace
 
-std::unique_ptr<Contender> make_embree(std::shared_ptr<const TriangleMesh> mesh) {
-  return std::make_unique<Embree>(std::move(mesh));
+std::unique_ptr<Contender> make_embree(std::shared_ptr<const TriangleMesh> mesh, EmbreeQuality quality) {
+  return std::make_unique<Embree>(std::move(mesh), quality);
 }
 
 }  // namespace grove::bench

@@ -23,6 +23,8 @@ class Grove final : public Contender {
     return timer.seconds();
   }
 
+  void release() override { structure_.reset(); }
+
   // One virtual call a ray, as the rival has one call a ray.
   void intersect(std::span<const Ray> rays, std::span<Hit> hits) const override {
     for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = structure_->intersect(rays[i]);

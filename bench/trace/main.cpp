@@ -2,9 +2,6 @@
 // rounds, each as a ratio to Embree in the same round.
 
 #include <fmt/format.h>
-#ifdef __linux__
-#include <sched.h>
-#endif
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -22,6 +19,7 @@
 #include "grove/scene/load.h"
 #include "trace/agreement.h"
 #include "trace/contender.h"
+#include "trace/pinned.h"
 #include "trace/world_mesh.h"
 
 namespace grove::bench {
@@ -35,36 +33,6 @@ struct Options {
   int rounds = 5;
   bool only_agreement = false;
   std::string json;
-};
-
-// Keeps the calling thread on one core for as long as it lives.
-class Pinned {
- public:
-  Pinned() {
-#ifdef __linux__
-    sched_getaffinity(0, sizeof before_, &before_);
-    cpu_set_t one;
-    CPU_ZERO(&one);
-    for (int core = 0; core < CPU_SETSIZE; ++core) {
-      if (!CPU_ISSET(core, &before_)) continue;
-      CPU_SET(core, &one);
-      break;
-    }
-    sched_setaffinity(0, sizeof one, &one);
-#endif
-  }
-  ~Pinned() {
-#ifdef __linux__
-    sched_setaffinity(0, sizeof before_, &before_);
-#endif
-  }
-  Pinned(const Pinned&) = delete;
-  Pinned& operator=(const Pinned&) = delete;
-
- private:
-#ifdef __linux__
-  cpu_set_t before_{};
-#endif
 };
 
 std::string text(const Spread& spread) {
