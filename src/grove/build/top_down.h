@@ -16,6 +16,8 @@ struct TopDownSettings {
   /// Ranges of at most this many references may become leaves; they do where the cost model says so. At least 1.
   std::uint32_t leaf_size = 8;
   CostModel cost = {};
+  /// No leaf is deeper. At least 40.
+  std::uint32_t most_depth = Bvh2::kMaxDepth;
   /// Spatial splits only: how many references may be added, relative to the primitives.
   double duplication_budget = 1.0;
   /// Spatial splits only: they are tried where the overlap of the best object split has this share of the root's area (alpha in Stich et al. 2009).

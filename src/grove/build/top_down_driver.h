@@ -20,8 +20,8 @@ namespace grove::detail {
 inline constexpr std::uint32_t kTaskSize = 8192;
 // Ranges above this are searched and partitioned by several tasks.
 inline constexpr std::uint32_t kParallelSize = 131072;
-// From here on ranges are halved: 2^32 references take 32 more levels.
-inline constexpr std::uint32_t kLastFreeDepth = Bvh2::kMaxDepth - 32;
+// So near to the greatest depth ranges are halved: 2^32 references take 32 more levels.
+inline constexpr std::uint32_t kHalvedLevels = 32;
 
 // What is decided for a range before anything moves.
 enum class Decision : std::uint8_t { leaf, split, halve };
@@ -29,7 +29,7 @@ enum class Decision : std::uint8_t { leaf, split, halve };
 inline Decision decide(const ReferenceRange& range, const Split& split, std::uint32_t depth, const TopDownSettings& settings,
                        float area_scale) {
   const bool may_be_leaf = range.count <= settings.leaf_size;
-  if (!split.is_possible || depth >= kLastFreeDepth) return may_be_leaf ? Decision::leaf : Decision::halve;
+  if (!split.is_possible || depth + kHalvedLevels >= settings.most_depth) return may_be_leaf ? Decision::leaf : Decision::halve;
   if (!may_be_leaf) return Decision::split;
   const auto area = static_cast<double>(scaled_half_area(range.bounds, area_scale));
   const double leaf_cost = settings.cost.intersection * range.count * area;

@@ -36,7 +36,7 @@ StructureFamily describe_bvh() {
                "arity above 2: collapse of a binary hierarchy at least cost, or multi-way split from the top"},
               {"optimize", {"none", "reinsertion"}, 0, 0, 0, "improvement of the built hierarchy: parallel reinsertion of subtrees"},
               {"leaf-size", {}, 1, 64, 8, "most primitives in a leaf; the cost model decides below it"},
-              {"radius", {}, 1, 64, 16, "split=ploc: how many places along the Morton curve neighbours are looked for"},
+              {"radius", {}, 1, 64, 8, "split=ploc: how many places along the Morton curve neighbours are looked for"},
           }};
 }
 

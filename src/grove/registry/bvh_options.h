@@ -18,7 +18,7 @@ struct BvhOptions {
   std::string widen;
   std::string optimize;
   std::uint32_t leaf_size = 8;
-  std::uint32_t radius = 16;
+  std::uint32_t radius = 8;
 
   /// Whether later passes decide which references share a leaf, so that the builder must part them all.
   [[nodiscard]] bool leaves_are_decided_later() const { return arity > 2 || bounds != "aabb" || optimize != "none"; }

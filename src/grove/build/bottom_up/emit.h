@@ -28,7 +28,7 @@ struct BottomUpSettings {
   std::uint32_t leaf_size = 8;
   CostModel cost = {};
   /// PLOC only: how far along the Morton curve a cluster looks for its nearest neighbour, in clusters.
-  std::uint32_t radius = 16;
+  std::uint32_t radius = 8;
 };
 
 template <Topology T>

@@ -1,6 +1,7 @@
 #include "grove/build/bottom_up/neighbour_search.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "grove/math/float4.h"
@@ -8,64 +9,74 @@
 namespace grove {
 namespace {
 
-Int4 load_ints(const std::int32_t* p) {
-  Int4 v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
+// Added to every area, so that the numbers compared are never denormal, which is slow.
+constexpr float kLeastArea = 0x1p-100F;
+// Above every area that occurs, and below infinity, which with a partner noted in it would be NaN.
+constexpr float kMostArea = 0x1p100F;
+
+// A partner `distance` places ahead or behind. Of two equal pairs the one with the lower code is taken.
+std::int32_t code(std::size_t distance, int is_second_choice) {
+  return static_cast<std::int32_t>(2 * distance) + is_second_choice;
 }
 
-// Where `mask` is set, takes the new area and partner.
-void take(Int4 mask, Float4 area, Int4 partner, float* least, std::int32_t* nearest) {
-  const Float4 new_least = mask ? area : load4(least);
-  const Int4 new_nearest = mask ? partner : load_ints(nearest);
-  std::memcpy(least, &new_least, sizeof new_least);
-  std::memcpy(nearest, &new_nearest, sizeof new_nearest);
+void keep_less(Float4 value, float* place) {
+  const Float4 least = min(value, load4(place));
+  std::memcpy(place, &least, sizeof least);
+}
+
+Float4 with_bits(Float4 value, Int4 bits) {
+  return reinterpret_cast<Float4>(reinterpret_cast<Int4>(value) | bits);
 }
 
 }  // namespace
 
 NeighbourSearch::NeighbourSearch(std::span<const PrimitiveReference> boxes, std::size_t first_place, float area_scale)
-    : count_(boxes.size()), first_place_(first_place), area_scale_(area_scale) {
+    : count_(boxes.size()), first_place_(first_place) {
   // Behind the last box stand boxes with which every joint box is infinite, as many as a step of four may reach.
   const std::size_t padded = count_ + 8;
-  for (int side = 0; side < 6; ++side) {
-    bounds_[side].resize(padded, side < 3 ? -std::numeric_limits<float>::infinity() : std::numeric_limits<float>::infinity());
-    for (std::size_t i = 0; i < count_; ++i) bounds_[side][i] = side < 3 ? boxes[i].lower[side] : boxes[i].upper[side - 3];
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (int side = 0; side < 6; ++side) bounds_[side].resize(padded, side < 3 ? -infinity : infinity);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Float4 lower = boxes[i].box().lower * splat(area_scale);
+    const Float4 upper = boxes[i].upper * splat(area_scale);
+    for (int axis = 0; axis < 3; ++axis) {
+      bounds_[axis][i] = lower[axis];
+      bounds_[axis + 3][i] = upper[axis];
+    }
   }
 }
 
 void NeighbourSearch::run(std::size_t radius) {
-  const float infinity = std::numeric_limits<float>::infinity();
-  least_.assign(count_ + radius + 8, infinity);
-  nearest_.resize(count_ + radius + 8);
-  // Should all areas be infinite, the place next to it still is a partner.
-  for (std::size_t i = 0; i < count_; ++i) {
-    const std::size_t other = ((first_place_ + i) & 1U) == 0 ? i + 1 : i - 1;
-    nearest_[i] = static_cast<std::int32_t>(other < count_ ? other : (i > 0 ? i - 1 : i));
-  }
-  const Int4 lanes = {0, 1, 2, 3};
-  const Float4 scale = splat(area_scale_);
-  // All bits set in the lanes of even places.
-  const Int4 even = (first_place_ & 1U) == 0 ? Int4{-1, 0, -1, 0} : Int4{0, -1, 0, -1};
+  partner_mask_ = static_cast<std::int32_t>((std::size_t{1} << std::bit_width(2 * radius + 1)) - 1);
+  best_.assign(count_ + radius + 8, kMostArea);
+  const Int4 area_mask = ~(Int4{} + partner_mask_);
+  const Int4 is_odd = (first_place_ & 1U) == 0 ? Int4{0, 1, 0, 1} : Int4{1, 0, 1, 0};
   for (std::size_t distance = 1; distance <= std::min(radius, count_ - 1); ++distance) {
+    // A box prefers the pair that begins before it, but of its next-door neighbours the one with which it begins at an even place.
+    const Int4 ahead = Int4{} + code(distance, 0) + (distance == 1 ? is_odd : Int4{} + 1);
+    const Int4 behind = Int4{} + code(distance, 0) + (distance == 1 ? is_odd : Int4{});
     for (std::size_t i = 0; i + distance < count_; i += 4) {
       Float4 extent[3];
       for (int axis = 0; axis < 3; ++axis) {
         const Float4 lower = min(load4(&bounds_[axis][i]), load4(&bounds_[axis][i + distance]));
         const Float4 upper = max(load4(&bounds_[axis + 3][i]), load4(&bounds_[axis + 3][i + distance]));
-        extent[axis] = (upper - lower) * scale;
+        extent[axis] = upper - lower;
       }
-      const Float4 area = extent[0] * (extent[1] + extent[2]) + extent[1] * extent[2];
-      const Int4 places = lanes + static_cast<std::int32_t>(i);
-      const auto step = static_cast<std::int32_t>(distance);
-      // First the later one of each pair: where both are as good, a box takes the pair that begins before it,
-      take(area < load4(&least_[i + distance]), area, places, &least_[i + distance], &nearest_[i + distance]);
-      // but next-door neighbours take the pair that begins at an even place.
-      const Float4 old = load4(&least_[i]);
-      const Int4 is_better = distance == 1 ? (area < old) | ((area == old) & even) : area < old;
-      take(is_better, area, places + step, &least_[i], &nearest_[i]);
+      const Float4 area = min(extent[0] * (extent[1] + extent[2]) + extent[1] * extent[2] + splat(kLeastArea), splat(kMostArea));
+      const Float4 rounded = reinterpret_cast<Float4>(reinterpret_cast<Int4>(area) & area_mask);
+      keep_less(with_bits(rounded, behind), &best_[i + distance]);
+      keep_less(with_bits(rounded, ahead), &best_[i]);
     }
   }
+}
+
+std::size_t NeighbourSearch::nearest(std::size_t i) const {
+  const std::int32_t partner = std::bit_cast<std::int32_t>(best_[i]) & partner_mask_;
+  const auto distance = static_cast<std::size_t>(partner / 2);
+  const bool second_choice = (partner & 1) != 0;
+  const bool is_even = ((first_place_ + i) & 1U) == 0;
+  const bool is_ahead = distance == 1 ? second_choice != is_even : second_choice;
+  return is_ahead ? i + distance : i - distance;
 }
 
 }  // namespace grove

@@ -5,12 +5,16 @@
 
 #include "grove/build/bottom_up/morton_order.h"
 #include "grove/build/bottom_up/neighbour_search.h"
+#include "grove/build/top_down.h"
 
 namespace grove {
 namespace {
 
 constexpr std::size_t kChunk = 4096;
-constexpr int kSearchRounds = 64;
+// Each round adds at most a level; the rest of the depth is left to the top.
+constexpr int kMostRounds = 32;
+constexpr std::size_t kTopClusters = 1024;
+constexpr std::size_t kSweptClusters = 65536;
 
 // Clusters are numbered: below reference_count they are single references in Morton order, above joined ones.
 class ClusterTopology {
@@ -66,15 +70,11 @@ class Clustering {
   }
 
   void run() {
-    for (int round = 0; clusters_.size() > 1; ++round) {
-      if (round < kSearchRounds) {
-        find_neighbours();
-      } else {
-        parallel_for(clusters_.size(), kChunk,
-                     [&](std::size_t i) { neighbours_[i] = static_cast<std::uint32_t>((i ^ 1U) < clusters_.size() ? i ^ 1U : i); });
-      }
+    for (int round = 0; round < kMostRounds && clusters_.size() > kTopClusters; ++round) {
+      find_neighbours();
       join_pairs();
     }
+    join_from_the_top();
   }
 
  private:
@@ -129,6 +129,34 @@ class Clustering {
     next_.resize(kept);
     clusters_.swap(next_);
     next_.resize(kept);
+  }
+
+  // What is left is few enough to be split by the exact heuristic, which sees further than neighbours on the curve do.
+  void join_from_the_top() {
+    if (clusters_.size() < 2) return;
+    ReferenceList list;
+    list.references.resize(clusters_.size());
+    for (std::size_t i = 0; i < clusters_.size(); ++i) {
+      const Box box = clusters_[i].box().box();
+      list.references[i] = make_reference(box, static_cast<std::uint32_t>(i));
+      list.bounds.grow(box);
+    }
+    TopDownSettings settings;
+    settings.split = clusters_.size() <= kSweptClusters ? ObjectSplit::sweep : ObjectSplit::binned;
+    settings.leaf_size = 1;
+    settings.most_depth = Bvh2::kMaxDepth - kMostRounds;
+    const Bvh2 top = build_top_down(std::move(list), settings);
+    // Children stand behind their parents, so that going backwards both are joined before them.
+    std::vector<std::uint32_t> numbers(top.nodes.size());
+    for (std::size_t i = top.nodes.size(); i-- > 0;) {
+      std::uint32_t children[2];
+      for (int side = 0; side < 2; ++side) {
+        const Bvh2Node::Child link = top.nodes[i].child[side];
+        children[side] = link.count > 0 ? number_of(clusters_[top.references[link.first]]) : numbers[link.first];
+      }
+      topology_.join(joined_count_, children[0], children[1]);
+      numbers[i] = topology_.cluster_of(joined_count_++);
+    }
   }
 
   ClusterTopology& topology_;
