@@ -25,22 +25,6 @@ struct CompareOptions : CommonOptions {
   ComparisonSettings settings;
 };
 
-/// The parts of a list, without the spaces around them. Throws UsageError when one is empty.
-std::vector<std::string> split_list(const std::string& option, const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  std::size_t first = 0;
-  while (first <= text.size()) {
-    const std::size_t end = std::min(text.find(separator, first), text.size());
-    std::string part = text.substr(first, end - first);
-    part.erase(0, std::min(part.find_first_not_of(' '), part.size()));
-    part.erase(part.find_last_not_of(' ') + 1);
-    if (part.empty()) throw UsageError(fmt::format("{}: '{}' has an empty entry", option, text));
-    parts.push_back(std::move(part));
-    first = end + 1;
-  }
-  return parts;
-}
-
 void read_lists(CompareOptions& options) {
   if (!options.structures.empty()) {
     for (const std::string& spec : split_list("--structures", options.structures, ';')) {

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "grove/base/error.h"
 #include "grove/registry/registry.h"
 
 namespace grove::app {
@@ -71,6 +72,21 @@ CLI::Option* in_range(CLI::Option* option, double minimum, double maximum) {
         return fmt::format("'{}' is not a number from {} to {}", text, minimum, maximum);
       },
       ""));
+}
+
+std::vector<std::string> split_list(const std::string& option, const std::string& text, char separator) {
+  std::vector<std::string> parts;
+  std::size_t first = 0;
+  while (first <= text.size()) {
+    const std::size_t end = std::min(text.find(separator, first), text.size());
+    std::string part = text.substr(first, end - first);
+    part.erase(0, std::min(part.find_first_not_of(' '), part.size()));
+    part.erase(part.find_last_not_of(' ') + 1);
+    if (part.empty()) throw UsageError(fmt::format("{}: '{}' has an empty entry", option, text));
+    parts.push_back(std::move(part));
+    first = end + 1;
+  }
+  return parts;
 }
 
 }  // namespace grove::app

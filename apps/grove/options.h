@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace grove::app {
 
@@ -28,5 +29,8 @@ void add_quiet(CLI::App& verb, CommonOptions& options);
 CLI::Option* in_range(CLI::Option* option, std::uint64_t minimum, std::uint64_t maximum);
 /// The same for numbers with a fraction.
 CLI::Option* in_range(CLI::Option* option, double minimum, double maximum);
+
+/// The parts of a list, without the spaces around them. Throws UsageError when one is empty.
+std::vector<std::string> split_list(const std::string& option, const std::string& text, char separator);
 
 }  // namespace grove::app

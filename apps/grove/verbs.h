@@ -23,6 +23,7 @@ struct Verb {
 [[nodiscard]] Verb add_render(CLI::App& program);
 [[nodiscard]] Verb add_trace(CLI::App& program);
 [[nodiscard]] Verb add_compare(CLI::App& program);
+[[nodiscard]] Verb add_animate(CLI::App& program);
 [[nodiscard]] Verb add_inspect(CLI::App& program);
 [[nodiscard]] Verb add_structures(CLI::App& program);
 

@@ -15,7 +15,7 @@ TEST(Help, OfTheProgramListsTheVerbs) {
   const CommandResult result = run_command(directory, {"--help"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
-  for (const char* verb : {"render", "trace", "compare", "inspect", "structures"}) EXPECT_THAT(result.out, HasSubstr(verb));
+  for (const char* verb : {"render", "trace", "compare", "inspect", "animate", "structures"}) EXPECT_THAT(result.out, HasSubstr(verb));
 }
 
 TEST(Help, OfEachVerbIsComplete) {

@@ -14,7 +14,8 @@ namespace {
 
 using testing::HasSubstr;
 
-const char* const kNames[] = {"cornell", "gears", "mount", "rings", "soup", "sphereflake", "spheres", "stadium", "tree"};
+const char* const kNames[] = {"cornell",     "gears",   "mount",   "rings", "shatter", "soup",
+                              "sphereflake", "spheres", "stadium", "tree",  "twist"};
 
 std::uint64_t hash(const Scene& scene) {
   std::uint64_t h = 0;
@@ -66,6 +67,8 @@ TEST(Builtin, CountsAreAsDocumented) {
   EXPECT_EQ(count("cornell"), 32U);
   EXPECT_EQ(count("cornell?size=3&objects=spheres"), 12U * 9 + 2);
   EXPECT_EQ(count("gears?size=3&teeth=16"), 32U * 16 * 9 + 4);
+  EXPECT_EQ(count("shatter?size=5"), 12U * 25);
+  EXPECT_EQ(count("twist?size=5"), 128U * 25 + 2);
   EXPECT_EQ(count("mount?size=20"), 804U);
   EXPECT_EQ(count("mount?size=20&spheres=false"), 800U);
   EXPECT_EQ(count("rings?size=2&detail=5"), 24U * 25 * 5 + 2);
@@ -136,7 +139,8 @@ TEST(Builtin, TessellatedSpheresFaceOutward) {
 }
 
 TEST(Builtin, RefusesWhatItDoesNotKnowAndListsWhatItDoes) {
-  EXPECT_THAT(usage_error_of("teapot"), HasSubstr("cornell, gears, mount, rings, soup, sphereflake, spheres, stadium, tree"));
+  EXPECT_THAT(usage_error_of("teapot"),
+              HasSubstr("cornell, gears, mount, rings, shatter, soup, sphereflake, spheres, stadium, tree, twist"));
   EXPECT_THAT(usage_error_of(""), HasSubstr("allowed are cornell"));
   EXPECT_THAT(usage_error_of("cornell?colour=red"), HasSubstr("unknown key 'colour'; allowed are size, triangles, primitives, objects"));
   EXPECT_THAT(usage_error_of("cornell?objects=cubes"), HasSubstr("allowed are blocks, spheres"));
@@ -152,6 +156,24 @@ TEST(Builtin, RefusesWhatItDoesNotKnowAndListsWhatItDoes) {
   EXPECT_THAT(usage_error_of("sphereflake?tessellate=yes"), HasSubstr("true, false"));
   EXPECT_THAT(usage_error_of("gears?teeth=10"), HasSubstr("multiples of 4"));
   for (const char* name : kNames) EXPECT_THAT(usage_error_of(std::string(name) + "?x=1"), HasSubstr("allowed are size"));
+}
+
+TEST(Builtin, WhatMovesKeepsItsTriangles) {
+  for (const std::string& name : moving_builtin_scenes()) {
+    SCOPED_TRACE(name);
+    const Scene first = make_builtin_scene(name + "?size=3");
+    const Scene start = make_builtin_scene(name + "?size=3&time=0");
+    const Scene middle = make_builtin_scene(name + "?size=3&time=0.5");
+    EXPECT_EQ(hash(first), hash(start));
+    EXPECT_NE(hash(first), hash(middle));
+    const TriangleMesh& a = *std::get<std::shared_ptr<TriangleMesh>>(first.objects[0].geometry);
+    const TriangleMesh& b = *std::get<std::shared_ptr<TriangleMesh>>(middle.objects[0].geometry);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a.triangles()[i], b.triangles()[i]);
+    EXPECT_EQ(first.objects.size(), 1U);
+  }
+  EXPECT_THAT(usage_error_of("twist?time=1.5"), HasSubstr("allowed are numbers from 0 to 1"));
+  EXPECT_THAT(usage_error_of("tree?time=0.5"), HasSubstr("unknown key"));
 }
 
 }  // namespace

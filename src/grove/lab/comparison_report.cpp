@@ -27,13 +27,6 @@ std::string spread_text(const Spread& spread, double scale = 1.0) {
   return fmt::format("{} ({}–{})", short_number(scale * spread.median), short_number(scale * spread.min), short_number(scale * spread.max));
 }
 
-Json machine_json(const Machine& machine) {
-  Json json{{"cpu", machine.cpu}, {"cores", machine.cores}, {"threads", machine.threads}, {"compiler", machine.compiler}};
-  if (!machine.commit.empty()) json["commit"] = machine.commit;
-  json["os"] = machine.os;
-  return json;
-}
-
 Json row_json(const ComparisonRow& row) {
   const auto unless_missing = [](bool present, const Json& value) { return present ? value : Json(nullptr); };
   Json json{{"structure", row.structure},
@@ -64,6 +57,13 @@ std::string csv_spread(bool present, const Spread& spread) {
 }
 
 }  // namespace
+
+Json machine_json(const Machine& machine) {
+  Json json{{"cpu", machine.cpu}, {"cores", machine.cores}, {"threads", machine.threads}, {"compiler", machine.compiler}};
+  if (!machine.commit.empty()) json["commit"] = machine.commit;
+  json["os"] = machine.os;
+  return json;
+}
 
 Json spread_json(const Spread& spread) {
   return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}};

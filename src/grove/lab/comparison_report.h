@@ -10,6 +10,9 @@ namespace grove {
 /// {"median": …, "min": …, "max": …}
 [[nodiscard]] nlohmann::ordered_json spread_json(const Spread& spread);
 
+/// cpu, cores, threads, compiler, commit and os.
+[[nodiscard]] nlohmann::ordered_json machine_json(const Machine& machine);
+
 /// A table for people, one block a kind of rays; failed rows carry their reason. The notes follow.
 [[nodiscard]] std::string comparison_table(const Comparison& comparison);
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "grove/scene/scene.h"
 
@@ -21,5 +22,7 @@ namespace grove {
 [[nodiscard]] Scene load_stl(const std::filesystem::path& file);
 /// `request` is what follows "builtin:".
 [[nodiscard]] Scene make_builtin_scene(std::string_view request);
+/// The built-in scenes that move: they have a key `time` from 0 to 1, at all values of which they have the same primitives.
+[[nodiscard]] std::vector<std::string> moving_builtin_scenes();
 
 }  // namespace grove

@@ -2,6 +2,7 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "grove/base/error.h"
 #include "grove/scene/builtin/generators.h"
@@ -15,19 +16,29 @@ namespace {
 struct Generator {
   std::string_view name;
   Scene (*make)(const BuiltinOptions&);
+  bool moves = false;  // has the key `time`
 };
 
-constexpr std::array<Generator, 9> kGenerators{{{"cornell", make_cornell},
-                                                {"gears", make_gears},
-                                                {"mount", make_mount},
-                                                {"rings", make_rings},
-                                                {"soup", make_soup},
-                                                {"sphereflake", make_sphereflake},
-                                                {"spheres", make_spheres},
-                                                {"stadium", make_stadium},
-                                                {"tree", make_tree}}};
+constexpr std::array<Generator, 11> kGenerators{{{"cornell", make_cornell},
+                                                 {"gears", make_gears},
+                                                 {"mount", make_mount},
+                                                 {"rings", make_rings},
+                                                 {"shatter", make_shatter, true},
+                                                 {"soup", make_soup},
+                                                 {"sphereflake", make_sphereflake},
+                                                 {"spheres", make_spheres},
+                                                 {"stadium", make_stadium},
+                                                 {"tree", make_tree},
+                                                 {"twist", make_twist, true}}};
 
 }  // namespace
+
+std::vector<std::string> moving_builtin_scenes() {
+  std::vector<std::string> names;
+  for (const Generator& generator : kGenerators)
+    if (generator.moves) names.emplace_back(generator.name);
+  return names;
+}
 
 Scene make_builtin_scene(std::string_view request) {
   const BuiltinOptions options(request);

@@ -10,10 +10,12 @@ namespace grove {
 [[nodiscard]] Scene make_gears(const BuiltinOptions& options);
 [[nodiscard]] Scene make_mount(const BuiltinOptions& options);
 [[nodiscard]] Scene make_rings(const BuiltinOptions& options);
+[[nodiscard]] Scene make_shatter(const BuiltinOptions& options);
 [[nodiscard]] Scene make_soup(const BuiltinOptions& options);
 [[nodiscard]] Scene make_sphereflake(const BuiltinOptions& options);
 [[nodiscard]] Scene make_spheres(const BuiltinOptions& options);
 [[nodiscard]] Scene make_stadium(const BuiltinOptions& options);
 [[nodiscard]] Scene make_tree(const BuiltinOptions& options);
+[[nodiscard]] Scene make_twist(const BuiltinOptions& options);
 
 }  // namespace grove

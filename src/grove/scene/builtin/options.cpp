@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 
 #include "grove/base/error.h"
 #include "grove/scene/formats/text.h"
@@ -47,6 +48,19 @@ std::uint64_t BuiltinOptions::integer(std::string_view key, std::uint64_t fallba
   if (error != std::errc() || end != text->data() + text->size() || value < least || value > most) {
     fail("value " + quote(*text) + " of " + std::string(key) + "; allowed are integers from " + std::to_string(least) + " to " +
          std::to_string(most));
+  }
+  return value;
+}
+
+double BuiltinOptions::number(std::string_view key, double fallback, double least, double most) const {
+  const std::string* const text = find(key);
+  if (text == nullptr) return fallback;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+  if (error != std::errc() || end != text->data() + text->size() || !(value >= least && value <= most)) {
+    char range[64];
+    std::snprintf(range, sizeof range, "%g to %g", least, most);
+    fail("value " + quote(*text) + " of " + std::string(key) + "; allowed are numbers from " + range);
   }
   return value;
 }

@@ -22,6 +22,8 @@ class BuiltinOptions {
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
   /// An integer from `least` to `most`, or `fallback` where the key is not given.
   [[nodiscard]] std::uint64_t integer(std::string_view key, std::uint64_t fallback, std::uint64_t least, std::uint64_t most) const;
+  /// The same for a number with a fraction.
+  [[nodiscard]] double number(std::string_view key, double fallback, double least, double most) const;
   /// One of `allowed`, the first where the key is not given.
   [[nodiscard]] std::string_view choice(std::string_view key, std::initializer_list<std::string_view> allowed) const;
   [[nodiscard]] bool boolean(std::string_view key, std::string_view fallback) const;
