@@ -52,7 +52,7 @@ struct VolumeBvh {
   /// reached once, two to kMaxArity children, volumes of a finite area, `depth` as found. O(nodes + references).
   [[nodiscard]] std::string validate(std::size_t primitive_count) const;
 
-  /// Calls visitor(node, depth) for each node and leaf, parents first.
+  /// Calls visitor(node, depth) for each node and leaf in depth-first order, parents first.
   template <typename Visitor>
   void visit_nodes(const Visitor& visitor) const;
 

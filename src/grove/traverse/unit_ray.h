@@ -5,9 +5,11 @@
 //
 // The tests are conservative: a volume is never skipped that holds a hit of one of the primitive tests. They widen it by `pad`, which is 64 u
 // times L, where u = 2^-24 and L is the largest coordinate of the scene's bounds relative to the ray's origin. In units of u L, a hit may be
-// off its primitive by 14 along each axis (traverse/slab_ray.h: 13 and the rounding of t), which is 24.3 in any direction, and the origin and the direction
-// that are rounded here move it by 1.8 each. So a hit is within 28 of the volume that holds its primitive, as seen from the rounded
-// ray; each test says how it keeps within the 36 that are left. Coordinates of the scene are at most L as well, since half its longest side is.
+// off its primitive by 14 along each axis (traverse/slab_ray.h: 13 and the rounding of t), which is 24.3 in any direction, and the origin and
+// the direction that are rounded here move it by 1.8 each. So a hit is within 28 of the volume that holds its primitive, as seen from the
+// rounded ray; each test says how it keeps within the 36 that are left. Coordinates of the scene are at most L as well, since half its
+// longest side is. Among denormal numbers each rounding of a primitive test is off by up to 2^-150 instead, and the 24.3 of them are covered by
+// another 2^-144. A t that is denormal may be off by 2^-150 too.
 
 #include <algorithm>
 #include <cmath>
@@ -44,18 +46,19 @@ struct UnitRay {
     const double length = std::sqrt(glm::dot(d, d));
     origin = Vec3(space.to_unit(ray.origin));
     direction = Vec3(d * (1.0 / length));
-    pad = static_cast<float>(largest * (0x1p-18 * (1.0 + 0x1p-20)));
+    pad = static_cast<float>((largest * 0x1p-18 + 0x1p-144 * space.scale) * (1.0 + 0x1p-20));
     rate = length * space.scale;
-    const float t = ray.t_min > 0.0F ? static_cast<float>(ray.t_min * rate) : 0.0F;
-    t_min = std::max(t * (1.0F - kSlack) - std::numeric_limits<float>::denorm_min(), 0.0F);
+    const float t = ray.t_min > 0.0F ? static_cast<float>((ray.t_min - double{kLeastFloat}) * rate) : 0.0F;
+    t_min = std::max(t * (1.0F - kSlack) - kLeastFloat, 0.0F);
   }
 
   /// The distance in unit space at `t`, rounded up.
   [[nodiscard]] float distance(float t) const {
-    return static_cast<float>(t * rate) * (1.0F + kSlack) + std::numeric_limits<float>::denorm_min();
+    return static_cast<float>((t + double{kLeastFloat}) * rate) * (1.0F + kSlack) + kLeastFloat;
   }
 
  private:
+  static constexpr float kLeastFloat = std::numeric_limits<float>::denorm_min();
   // Four units in the last place, for a product that is rounded to a float and multiplied once more.
   static constexpr float kSlack = 0x1p-22F;
   // A scene without extent has no size to compare with.

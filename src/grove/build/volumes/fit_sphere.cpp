@@ -8,6 +8,7 @@
 
 #include "grove/build/volumes/fit_volume.h"
 #include "grove/build/volumes/smallest_ball.h"
+#include "grove/math/rounding.h"
 
 namespace grove {
 namespace {
@@ -55,7 +56,7 @@ BoundingSphere fit_volume<BoundingSphere>(const FitTask& task) {
   for (int round = 0; round < kMaxRounds; ++round) {
     // Inside the box it is no farther from a ray's origin than the scene reaches, which the test of a ray relies on.
     const Vec3 centre = glm::clamp(Vec3(ball.centre()), task.box.lower, task.box.upper);
-    const HullRange::Farthest farthest = task.hulls.farthest_from(glm::dvec3(centre));
+    const HullRange::Farthest farthest = task.hulls.farthest_from(centre);
     const float radius = radius_to(farthest.distance);
     if (radius < best.radius) best = {centre, radius};
     if (farthest.distance <= std::sqrt(ball.squared_radius()) * (1.0 + kPrecision) || !ball.take_in(farthest.point)) break;

@@ -51,7 +51,8 @@ void HullRange::fit_planes(OrientedBox& box) const {
   }
 }
 
-HullRange::Farthest HullRange::farthest_from(const glm::dvec3& centre) const {
+HullRange::Farthest HullRange::farthest_from(const Vec3& from) const {
+  const glm::dvec3 centre(from);
   const auto measure = [&](std::size_t first, std::size_t last) {
     Farthest farthest{centre, -1.0};
     if (list_.radii.empty()) {

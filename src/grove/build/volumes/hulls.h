@@ -52,7 +52,7 @@ class HullRange {
     double distance;
   };
   /// The point of the hulls that is farthest from `centre`, the first of equals.
-  [[nodiscard]] Farthest farthest_from(const glm::dvec3& centre) const;
+  [[nodiscard]] Farthest farthest_from(const Vec3& centre) const;
 
   /// Calls visitor(point, radius) for the points of all hulls in unit space.
   template <typename Visitor>
