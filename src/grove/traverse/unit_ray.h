@@ -48,8 +48,9 @@ struct UnitRay {
     direction = Vec3(d * (1.0 / length));
     pad = static_cast<float>((largest * 0x1p-18 + 0x1p-144 * space.scale) * (1.0 + 0x1p-20));
     rate = length * space.scale;
-    const float t = ray.t_min > 0.0F ? static_cast<float>((ray.t_min - double{kLeastFloat}) * rate) : 0.0F;
-    t_min = std::max(t * (1.0F - kSlack) - kLeastFloat, 0.0F);
+    // Below 0 by next to nothing, or by a lot for a very long direction: a t just below 0 is rounded to -0, which counts as a hit.
+    const double t = ((ray.t_min > 0.0F ? ray.t_min : 0.0F) - double{kLeastFloat}) * rate;
+    t_min = static_cast<float>(t - std::fabs(t) * kSlack) - kLeastFloat;
   }
 
   /// The distance in unit space at `t`, rounded up.
