@@ -15,9 +15,18 @@
 namespace grove::test {
 namespace {
 
-// The representative specs, and each value of each key on its own.
+// Values of keys that meet in one pass.
+constexpr std::string_view kCombinations[] = {
+    "bvh:bounds=obb,arity=8",
+    "bvh:split=spatial,bounds=obb,arity=4,widen=greedy",
+    "bvh:split=ploc,bounds=sphere,arity=4",
+    "bvh:split=spatial,bounds=sphere,arity=8,optimize=reinsertion",
+};
+
+// The representative specs, the combinations, and each value of each key on its own.
 std::vector<std::string> matrix_specs() {
   std::vector<std::string> specs = representatives();
+  specs.insert(specs.end(), std::begin(kCombinations), std::end(kCombinations));
   for (const StructureFamily& family : structure_families()) {
     for (const SpecKey& key : family.keys) {
       std::vector<std::string> values(key.values.begin(), key.values.end());

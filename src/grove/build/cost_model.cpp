@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "grove/accel/bvh2.h"
+#include "grove/accel/volume_bvh.h"
 #include "grove/accel/wide_bvh.h"
 
 namespace grove {
@@ -48,7 +49,21 @@ double expected_cost(const WideBvh<N>& bvh, const CostModel& model) {
   return cost_of(bvh, model);
 }
 
+template <BoundingVolume V>
+double expected_cost(const VolumeBvh<V>& bvh, const CostModel& model) {
+  if (bvh.nodes.empty()) return 0.0;
+  const double root_area = bvh.nodes[0].volume.half_area();
+  double sum = 0.0;
+  bvh.visit_nodes([&](const VolumeNode<V>& node, std::uint32_t /*depth*/) {
+    const double probability = root_area > 0.0 ? node.volume.half_area() / root_area : 1.0;
+    sum += probability * (node.is_leaf ? model.intersection * node.count : model.traversal);
+  });
+  return sum;
+}
+
 template double expected_cost(const WideBvh<4>& bvh, const CostModel& model);
 template double expected_cost(const WideBvh<8>& bvh, const CostModel& model);
+template double expected_cost(const VolumeBvh<OrientedBox>& bvh, const CostModel& model);
+template double expected_cost(const VolumeBvh<BoundingSphere>& bvh, const CostModel& model);
 
 }  // namespace grove

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "grove/math/bounding_volume.h"
 #include "grove/math/box.h"
 
 namespace grove {
@@ -12,6 +13,8 @@ namespace grove {
 struct Bvh2;
 template <int N>
 struct WideBvh;
+template <BoundingVolume V>
+struct VolumeBvh;
 
 /// How the cost of a split counts what lies inside its subsets (SubsetTime in build/split.h).
 enum class SplitCost : std::uint8_t { standard, equation_2 };
@@ -43,5 +46,9 @@ class AreaMeasure {
 /// The same for a wide hierarchy; `model.traversal` is then the time of a step through a wide node.
 template <int N>
 [[nodiscard]] double expected_cost(const WideBvh<N>& bvh, const CostModel& model);
+
+/// The same by the areas of the hierarchy's own volumes, for a ray that meets the volume of the root.
+template <BoundingVolume V>
+[[nodiscard]] double expected_cost(const VolumeBvh<V>& bvh, const CostModel& model);
 
 }  // namespace grove

@@ -1,7 +1,8 @@
 #include "grove/geometry/clip_triangle.h"
 
 #include <cmath>
-#include <limits>
+
+#include "grove/math/rounding.h"
 
 namespace grove {
 namespace {
@@ -29,16 +30,6 @@ Polygon clip_to_plane(const Polygon& polygon, int axis, double plane, double sid
     }
   }
   return kept;
-}
-
-float round_down(double v) {
-  const auto f = static_cast<float>(v);
-  return f <= v ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
-}
-
-float round_up(double v) {
-  const auto f = static_cast<float>(v);
-  return f >= v ? f : std::nextafter(f, std::numeric_limits<float>::infinity());
 }
 
 }  // namespace

@@ -26,7 +26,12 @@ StructureFamily describe_bvh() {
                "how a set is parted: surface-area heuristic over bins, over all object splits, or cutting primitives; equal counts; equal "
                "volumes"},
               {"cost", {"standard", "equation-2"}, 0, 0, 0, "the surface-area cost of a split: today's form, or the review's equation 2"},
-              {"bounds", {"aabb"}, 0, 0, 0, "the bounding volume: axis-aligned boxes"},
+              {"bounds",
+               {"aabb", "obb", "sphere"},
+               0,
+               0,
+               0,
+               "the bounding volume: axis-aligned boxes, or the same hierarchy with oriented boxes or spheres fitted to its primitives"},
               {"arity", {"2", "4", "8"}, 0, 0, 0, "most children of an interior node"},
               {"widen",
                {"optimal", "greedy"},
@@ -41,7 +46,10 @@ StructureFamily describe_bvh() {
 }
 
 std::unique_ptr<Accelerator> build_bvh(const Spec& spec, const GeometryPointer& geometry) {
-  switch (BvhOptions(spec).arity) {
+  const BvhOptions options(spec);
+  if (options.bounds == "obb") return build_bvh_obb(spec, geometry);
+  if (options.bounds == "sphere") return build_bvh_sphere(spec, geometry);
+  switch (options.arity) {
     case 4:
       return build_bvh4(spec, geometry);
     case 8:

@@ -16,4 +16,8 @@ namespace grove {
 [[nodiscard]] std::unique_ptr<Accelerator> build_bvh4(const Spec& spec, const GeometryPointer& geometry);
 [[nodiscard]] std::unique_ptr<Accelerator> build_bvh8(const Spec& spec, const GeometryPointer& geometry);
 
+/// Any number of children a node; oriented boxes, or spheres.
+[[nodiscard]] std::unique_ptr<Accelerator> build_bvh_obb(const Spec& spec, const GeometryPointer& geometry);
+[[nodiscard]] std::unique_ptr<Accelerator> build_bvh_sphere(const Spec& spec, const GeometryPointer& geometry);
+
 }  // namespace grove

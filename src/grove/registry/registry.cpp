@@ -24,6 +24,8 @@ constexpr std::string_view kRepresentativeSpecs[] = {
     "bvh:split=spatial-median",
     "bvh:split=lbvh",
     "bvh:split=ploc",
+    "bvh:bounds=obb",
+    "bvh:bounds=sphere",
     "bvh:arity=4",
     "bvh:arity=8",
     "bvh:arity=8,widen=greedy",

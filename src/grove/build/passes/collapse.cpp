@@ -4,34 +4,13 @@
 #include <limits>
 
 #include "grove/base/parallel.h"
+#include "grove/build/passes/leaf_writer.h"
 
 namespace grove {
 namespace {
 
 // Subtrees of fewer nodes are planned by one task.
 constexpr std::uint32_t kTaskSize = 16384;
-
-// Writes leaves one after another, each primitive once.
-class LeafWriter {
- public:
-  LeafWriter(const HugeVector<std::uint32_t>& source, HugeVector<std::uint32_t>& target) : source_(source), target_(target) {
-    target_.reserve(source.size());
-  }
-
-  // Returns the place and the size of the leaf made of source references [first, first + count).
-  std::pair<std::uint32_t, std::uint32_t> write(std::uint32_t first, std::uint32_t count) {
-    const auto begin = static_cast<std::uint32_t>(target_.size());
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      const auto leaf = target_.begin() + begin;
-      if (std::find(leaf, target_.end(), source_[i]) == target_.end()) target_.push_back(source_[i]);
-    }
-    return {begin, static_cast<std::uint32_t>(target_.size()) - begin};
-  }
-
- private:
-  const HugeVector<std::uint32_t>& source_;
-  HugeVector<std::uint32_t>& target_;
-};
 
 Box slot_box(const Bvh2& bvh, std::uint32_t slot) {
   return bvh.nodes[slot / 2].child_box(static_cast<int>(slot % 2));
