@@ -48,13 +48,16 @@ int run(const InspectOptions& options, Interrupts& interrupts) {
   Scene scene = load(options.scene, console);
   drop_shading_data(scene);
   const BuiltStructure built = build_structure(scene, spec, console);
+  console.status("measuring quality");
+  const StructureQuality quality = built.accelerator.measure_quality();
 
   // What is being written is finished first; a second signal ends it.
   const Interrupts::Graceful graceful(interrupts);
   console.say("");
-  fmt::print("{}", structure_text(spec, built.statistics, arena_threads()));
+  fmt::print("{}", structure_text(spec, built.statistics, quality, arena_threads()));
   if (!options.json.empty()) {
     nlohmann::ordered_json json = structure_json(spec, built.statistics, arena_threads());
+    json.update(quality_json(quality));
     json["scene"] = options.scene;
     write_text_file(options.json, json.dump(2) + "\n");
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "grove/base/random.h"
+#include "build/sample_meshes.h"
 #include "grove/build/spatial_splits.h"
 #include "grove/build/splits/object_median.h"
 #include "grove/build/splits/spatial_median.h"
@@ -15,23 +15,7 @@
 namespace grove {
 namespace {
 
-Vec3 random_point(Random& random) {
-  return {random.next_float(), random.next_float(), random.next_float()};
-}
-
-// Long thin triangles in all directions: boxes say little about them.
-TriangleMesh slivers(std::size_t count, std::uint64_t seed) {
-  Random random(seed);
-  std::vector<Vec3> vertices;
-  std::vector<Triangle> triangles;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Vec3 from = random_point(random);
-    const Vec3 to = random_point(random);
-    vertices.insert(vertices.end(), {from, to, to + 0.002F * random_point(random)});
-    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-  }
-  return {std::move(vertices), std::move(triangles)};
-}
+using testing::slivers;
 
 SplitContext context_of(const ReferenceList& list, const CostModel& model = {}) {
   return {AreaMeasure(list.bounds).scale(), SubsetTime(model)};

@@ -30,8 +30,12 @@ TEST(Compare, PrintsATableAndWritesJsonAndCsv) {
     EXPECT_EQ(row.at("mismatches"), 0);
     EXPECT_GT(row.at("mrays_per_s").at("median"), 0.0);
     EXPECT_GT(row.at("build_seconds").at("median"), 0.0);
-    for (const char* key : {"nodes_per_ray", "tests_per_ray", "bytes", "expected_cost"}) EXPECT_TRUE(row.at(key).is_number()) << key;
+    for (const char* key : {"nodes_per_ray", "tests_per_ray", "bytes", "expected_cost", "references", "nodes", "leaves", "depth"})
+      EXPECT_TRUE(row.at(key).is_number()) << key;
   }
+  EXPECT_GT(json.at("rows").at(0).at("end_point_overlap"), 0.0);
+  EXPECT_GT(json.at("rows").at(0).at("sibling_overlap"), 0.0);
+  EXPECT_TRUE(json.at("rows").at(2).at("end_point_overlap").is_null()) << "brute force has no nodes";
   EXPECT_THAT(kinds, ::testing::ElementsAre("diffuse", "primary", "random", "shadow"));
   EXPECT_EQ(line_count(read_file(directory / "c.csv")), 13U);
 }

@@ -31,10 +31,27 @@ TEST(Inspect, ShowsFiguresAndHistograms) {
   EXPECT_GT(json.at("bytes"), 0);
   EXPECT_GT(json.at("build_seconds"), 0.0);
   EXPECT_GT(json.at("expected_cost"), 0.0);
+  EXPECT_GT(json.at("end_point_overlap"), 0.0);
+  EXPECT_GT(json.at("end_point_overlap_error"), 0.0);
+  EXPECT_GT(json.at("sibling_overlap"), 0.0);
+  EXPECT_EQ(json.at("duplication"), 1.0);
+  EXPECT_THAT(result.out, HasSubstr("end-point overlap"));
+  EXPECT_THAT(result.out, HasSubstr("sibling overlap"));
 
   const std::string boxes = read_file(directory / "boxes.obj");
   EXPECT_THAT(boxes, HasSubstr("\nv "));
   EXPECT_THAT(boxes, HasSubstr("\nl "));
+}
+
+// Brute force has no nodes, and is shown all the same.
+TEST(Inspect, LeavesOutWhatAStructureHasNot) {
+  const TemporaryDirectory directory;
+  const CommandResult result = run_command(directory, {"inspect", "builtin:cornell", "--structure", "brute", "--json", "i.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, ::testing::Not(HasSubstr("overlap")));
+  const auto json = nlohmann::json::parse(read_file(directory / "i.json"));
+  for (const char* key : {"end_point_overlap", "end_point_overlap_error", "sibling_overlap", "duplication"})
+    EXPECT_TRUE(json.at(key).is_null()) << key;
 }
 
 TEST(Inspect, TheTreeDoesNotDependOnTheThreads) {

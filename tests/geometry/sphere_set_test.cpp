@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "grove/geometry/geometry_concept.h"
+#include "grove/geometry/sampled_geometry.h"
 
 namespace grove {
 namespace {
@@ -48,6 +48,25 @@ TEST(SphereSet, ClipLeavesOutBoxesThatTheSurfaceMisses) {
   EXPECT_TRUE(set.clip(0, {Vec3(-0.5F), Vec3(0.5F)}).is_empty());   // inside
   EXPECT_FALSE(set.clip(0, {Vec3(0.5F), Vec3(1.0F)}).is_empty());   // the surface passes
   EXPECT_FALSE(set.clip(0, {Vec3(-2.0F), Vec3(2.0F)}).is_empty());  // all of it
+}
+
+TEST(SphereSet, SurfacePointsAreUniform) {
+  static_assert(SampledGeometry<SphereSet>);
+  const SphereSet set({{Vec3(1, 2, 3), 2.0F}, {Vec3(0.0F), -1.0F}});
+  EXPECT_NEAR(set.surface_area(0), 50.26548245743669, 1e-12);
+  EXPECT_EQ(set.surface_area(1), 0.0);
+  // The variance along each axis is a third of the squared radius.
+  constexpr int kSide = 200;
+  glm::dvec3 mean(0.0);
+  glm::dvec3 variance(0.0);
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const glm::dvec3 from_centre = set.surface_point(0, (i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide) - glm::dvec3(1, 2, 3);
+    ASSERT_NEAR(glm::length(from_centre), 2.0, 1e-12);
+    mean += from_centre / (1.0 * kSide * kSide);
+    variance += from_centre * from_centre / (1.0 * kSide * kSide);
+  }
+  EXPECT_NEAR(glm::length(mean), 0.0, 1e-3);
+  EXPECT_NEAR(glm::length(variance - glm::dvec3(4.0 / 3.0)), 0.0, 1e-3);
 }
 
 }  // namespace

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "grove/base/error.h"
+#include "grove/geometry/sampled_geometry.h"
 
 namespace grove {
 namespace {
@@ -48,6 +51,31 @@ TEST(TriangleMesh, WhatIsNotFiniteHasNoBounds) {
   EXPECT_TRUE(mesh.bounds(1).is_empty());
   EXPECT_EQ(mesh.bounds(2).upper, Vec3(1, 1, 0));
   EXPECT_TRUE(mesh.clip(0, {Vec3(-9.0F), Vec3(9.0F)}).is_empty());
+}
+
+// A uniform grid over (u, v) gives points whose mean is the centroid, and a quarter of them in the corner triangle of half the side.
+TEST(TriangleMesh, SurfacePointsAreUniform) {
+  static_assert(SampledGeometry<TriangleMesh>);
+  const TriangleMesh mesh({{1, 2, 3}, {4, 2, 3}, {1, 6, 3}, {1, NAN, 3}}, {{0, 1, 2}, {0, 1, 3}, {0, 0, 1}});
+  EXPECT_EQ(mesh.surface_area(0), 6.0);
+  EXPECT_EQ(mesh.surface_area(1), 0.0);
+  EXPECT_EQ(mesh.surface_area(2), 0.0);
+  for (int corner = 0; corner < 3; ++corner) {
+    constexpr int kSide = 200;
+    glm::dvec3 sum(0.0);
+    int in_corner = 0;
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const glm::dvec3 point = mesh.surface_point(0, (i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide);
+      const double b1 = (point.x - 1.0) / 3.0;
+      const double b2 = (point.y - 2.0) / 4.0;
+      ASSERT_EQ(point.z, 3.0);
+      ASSERT_GE(std::min({b1, b2, 1.0 - b1 - b2}), -1e-12);
+      in_corner += (corner == 0 ? 1.0 - b1 - b2 : corner == 1 ? b1 : b2) > 0.5 ? 1 : 0;
+      sum += point;
+    }
+    EXPECT_NEAR(in_corner / (1.0 * kSide * kSide), 0.25, 0.01) << corner;
+    EXPECT_NEAR(glm::length(sum / (1.0 * kSide * kSide) - glm::dvec3(2.0, 10.0 / 3.0, 3.0)), 0.0, 0.01);
+  }
 }
 
 }  // namespace

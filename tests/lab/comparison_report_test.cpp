@@ -30,6 +30,11 @@ Comparison two_rows() {
   good.build_seconds = {0.5, 0.25, 0.75};
   good.bytes = 2048;
   good.expected_cost = 40.0;
+  good.references = 1300;
+  good.nodes = 99;
+  good.leaves = 50;
+  good.depth = 7;
+  good.end_point_overlap = 0.5;
   ComparisonRow bad;
   bad.structure = "brute";
   bad.ray_count = 10;
@@ -53,6 +58,12 @@ TEST(ComparisonReport, JsonHasTheAgreedKeys) {
   EXPECT_EQ(row.at("tests_per_ray"), 3.25);
   EXPECT_EQ(row.at("bytes"), 2048);
   EXPECT_EQ(row.at("expected_cost"), 40.0);
+  EXPECT_EQ(row.at("end_point_overlap"), 0.5);
+  EXPECT_TRUE(row.at("sibling_overlap").is_null());
+  EXPECT_EQ(row.at("references"), 1300);
+  EXPECT_EQ(row.at("nodes"), 99);
+  EXPECT_EQ(row.at("leaves"), 50);
+  EXPECT_EQ(row.at("depth"), 7);
   EXPECT_EQ(row.at("mismatches"), 0);
   EXPECT_FALSE(row.contains("error"));
 }
@@ -60,7 +71,8 @@ TEST(ComparisonReport, JsonHasTheAgreedKeys) {
 TEST(ComparisonReport, AFailedRowSaysWhyAndHasNoFigures) {
   const auto row = comparison_json(two_rows()).at("rows").at(1);
   EXPECT_EQ(row.at("error"), "out of memory");
-  for (const char* key : {"mrays_per_s", "nodes_per_ray", "build_seconds", "bytes", "mismatches"})
+  for (const char* key :
+       {"mrays_per_s", "nodes_per_ray", "build_seconds", "bytes", "mismatches", "end_point_overlap", "references", "depth"})
     EXPECT_TRUE(row.at(key).is_null()) << key;
   EXPECT_THAT(comparison_table(two_rows()), HasSubstr("failed: brute on primary rays: out of memory"));
 }
@@ -68,6 +80,7 @@ TEST(ComparisonReport, AFailedRowSaysWhyAndHasNoFigures) {
 TEST(ComparisonReport, TableLinesUp) {
   const std::string table = comparison_table(two_rows());
   EXPECT_THAT(table, HasSubstr("2.00 (1.00–3.00)"));
+  EXPECT_THAT(table, HasSubstr("  40.0  0.500        -\n"));
   EXPECT_THAT(table, HasSubstr("note: something was left out"));
   EXPECT_THAT(table, ::testing::Not(HasSubstr(" \n")));
 }
@@ -81,9 +94,9 @@ TEST(ComparisonReport, CsvQuotesWhatNeedsIt) {
   std::getline(lines, heading);
   std::getline(lines, good);
   std::getline(lines, bad);
-  EXPECT_EQ(good, "\"a \"\"scene\"\", of sorts\",primary,bvh,1000,2,1,3,1,12.5,3.25,0.5,0.25,0.75,2048,40,0,");
-  EXPECT_EQ(bad, "\"a \"\"scene\"\", of sorts\",primary,brute,10,,,,,,,,,,,,,out of memory");
-  EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 16);
+  EXPECT_EQ(good, "\"a \"\"scene\"\", of sorts\",primary,bvh,1000,2,1,3,1,12.5,3.25,0.5,0.25,0.75,2048,40,0.5,,1300,99,50,7,0,");
+  EXPECT_EQ(bad, "\"a \"\"scene\"\", of sorts\",primary,brute,10,,,,,,,,,,,,,,,,,,,out of memory");
+  EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 22);
 }
 
 TEST(ComparisonReport, SaysWhenOnlyASampleWasChecked) {

@@ -41,6 +41,11 @@ TEST(Comparison, MeasuresEveryStructureOnEveryKindOfRays) {
       expect_ordered(row.mrays_per_s);
       expect_ordered(row.build_seconds);
       expect_ordered(row.ratio_to_first);
+      EXPECT_EQ(row.end_point_overlap.has_value(), i % 2 == 0);
+      EXPECT_EQ(row.sibling_overlap.has_value(), i % 2 == 0);
+      EXPECT_GT(row.references, 0U);
+      EXPECT_GT(row.nodes, 0U);
+      EXPECT_EQ(row.end_point_overlap, comparison.rows[i % 2].end_point_overlap);
       if (i % 2 == 0) {
         EXPECT_EQ(row.ratio_to_first, (Spread{1.0, 1.0, 1.0}));
       } else {

@@ -34,6 +34,43 @@ TEST(StructureReport, JsonHasTheAgreedKeys) {
   EXPECT_EQ(json.at("threads"), 4);
 }
 
+TEST(StructureReport, SaysHowLeavesAreFilledAndHowDeepTheyLie) {
+  StructureStatistics statistics;
+  statistics.references = 30;
+  statistics.leaves = 4;
+  statistics.largest_leaf = 12;
+  statistics.depth = 3;
+  statistics.depths = {0, 1, 1, 2};
+  const auto json = structure_json("bvh", statistics, 1);
+  EXPECT_EQ(json.at("mean_leaf_size"), 7.5);
+  EXPECT_EQ(json.at("largest_leaf"), 12);
+  EXPECT_EQ(json.at("mean_leaf_depth"), 2.25);
+  const std::string text = structure_text("bvh", statistics, {}, 1);
+  EXPECT_THAT(text, HasSubstr("4  (7.50 references on average, 12 at most)"));
+  EXPECT_THAT(text, HasSubstr("3  (2.25 on average over leaves)"));
+}
+
+TEST(StructureReport, QualityIsNullWhereItWasNotMeasured) {
+  StructureQuality quality;
+  const auto nothing = quality_json(quality);
+  EXPECT_EQ(nothing.size(), 5U);
+  for (const auto& [key, value] : nothing.items()) EXPECT_TRUE(value.is_null()) << key;
+  EXPECT_THAT(structure_text("bvh", {}, quality, 1), ::testing::Not(HasSubstr("overlap")));
+  quality.end_point_overlap = {.value = 0.5, .error = 0.01, .sample_count = 1000};
+  quality.sibling_overlap = 0.25;
+  quality.duplication = 1.5;
+  const auto json = quality_json(quality);
+  EXPECT_EQ(json.at("end_point_overlap"), 0.5);
+  EXPECT_EQ(json.at("end_point_overlap_error"), 0.01);
+  EXPECT_EQ(json.at("end_point_overlap_samples"), 1000);
+  EXPECT_EQ(json.at("sibling_overlap"), 0.25);
+  EXPECT_EQ(json.at("duplication"), 1.5);
+  const std::string text = structure_text("bvh", {}, quality, 1);
+  EXPECT_THAT(text, HasSubstr("end-point overlap  0.500  (standard error 0.0100, 1,000 points)\n"));
+  EXPECT_THAT(text, HasSubstr("sibling overlap    0.250\n"));
+  EXPECT_THAT(text, HasSubstr("duplication        1.50\n"));
+}
+
 TEST(Histogram, DrawsABarForEachBin) {
   const std::vector<std::uint64_t> bins{0, 1, 100, 0, 50};
   const std::string text = histogram_text(bins, true);

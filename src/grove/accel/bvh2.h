@@ -56,7 +56,7 @@ struct Bvh2 {
   /// and below `primitive_count`, each node reached once, `depth` as found. O(nodes + references).
   [[nodiscard]] std::string validate(std::size_t primitive_count) const;
 
-  /// Calls visit(box, depth, first, count) for each node and leaf, parents first; count is 0 for an interior node.
+  /// Calls visit(box, depth, first, count) for each node and leaf in depth-first order, parents first; count is 0 for an interior node.
   template <typename Visitor>
   void visit(const Visitor& visitor) const;
 };

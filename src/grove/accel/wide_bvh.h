@@ -54,7 +54,7 @@ struct WideBvh {
   /// The first broken invariant in words, or an empty string; as Bvh2::validate.
   [[nodiscard]] std::string validate(std::size_t primitive_count) const;
 
-  /// Calls visit(box, depth, first, count) for each node and leaf, parents first; count is 0 for an interior node.
+  /// Calls visit(box, depth, first, count) for each node and leaf in depth-first order, parents first; count is 0 for an interior node.
   template <typename Visitor>
   void visit(const Visitor& visitor) const;
 };

@@ -12,6 +12,7 @@ namespace grove {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr double kPiDouble = 3.14159265358979323846;
 
 bool is_hittable(const SphereSet::Sphere& sphere) {
   return sphere.radius > 0.0F && sphere.radius <= 0.5F * kMaxCoordinate && Ray::is_within(sphere.centre, 0.5F * kMaxCoordinate);
@@ -91,6 +92,20 @@ Box SphereSet::clip(std::size_t i, const Box& box) const {
   return overlap;
 }
 
+double SphereSet::surface_area(std::size_t i) const {
+  const double radius = spheres_[i].radius;
+  return is_hittable(spheres_[i]) ? 4.0 * kPiDouble * radius * radius : 0.0;
+}
+
+glm::dvec3 SphereSet::surface_point(std::size_t i, double u, double v) const {
+  // Slices of equal height have equal area (Archimedes).
+  const double z = 1.0 - 2.0 * u;
+  const double from_axis = std::sqrt(std::fmax(0.0, 1.0 - z * z));
+  const double azimuth = 2.0 * kPiDouble * v;
+  const glm::dvec3 direction(from_axis * std::cos(azimuth), from_axis * std::sin(azimuth), z);
+  return glm::dvec3(spheres_[i].centre) + static_cast<double>(spheres_[i].radius) * direction;
+}
+
 SphereSet::PreparedRay SphereSet::prepare(const Ray& ray) {
   const glm::dvec3 direction(ray.direction);
   return {ray, 1.0 / glm::dot(direction, direction)};
@@ -103,7 +118,6 @@ bool SphereSet::intersect(std::size_t i, const PreparedRay& ray, Hit& hit) const
   if (!is_closer(t, id, hit) || !is_hittable(sphere)) return false;
   const glm::dvec3 point = glm::dvec3(ray.ray.origin) + static_cast<double>(t) * glm::dvec3(ray.ray.direction);
   const glm::dvec3 normal = glm::normalize(point - glm::dvec3(sphere.centre));
-  constexpr double kPiDouble = 3.14159265358979323846;
   const double azimuth = std::atan2(normal.y, normal.x) / (2.0 * kPiDouble);
   hit.t = t;
   hit.u = static_cast<float>(azimuth < 0.0 ? azimuth + 1.0 : azimuth);

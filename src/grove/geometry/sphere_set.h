@@ -43,6 +43,10 @@ class SphereSet {
   /// Bounds of the sphere's surface inside `box`, conservative: the box intersection, or empty when the surface misses the box.
   [[nodiscard]] Box clip(std::size_t i, const Box& box) const;
 
+  /// As SampledGeometry asks.
+  [[nodiscard]] double surface_area(std::size_t i) const;
+  [[nodiscard]] glm::dvec3 surface_point(std::size_t i, double u, double v) const;
+
   [[nodiscard]] static PreparedRay prepare(const Ray& ray);
   template <typename Counter>
   bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, Counter& /*counter*/) const {

@@ -1,6 +1,7 @@
 #include "grove/geometry/triangle_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -61,6 +62,22 @@ Box TriangleMesh::clip(std::size_t i, const Box& box) const {
   if (whole.is_empty() || box.contains(whole)) return whole;
   const Triangle& triangle = triangles_[i];
   return clip_triangle(vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z], box);
+}
+
+double TriangleMesh::surface_area(std::size_t i) const {
+  if (bounds(i).is_empty()) return 0.0;
+  const Triangle& triangle = triangles_[i];
+  const glm::dvec3 origin(vertices_[triangle.x]);
+  return 0.5 * glm::length(glm::cross(glm::dvec3(vertices_[triangle.y]) - origin, glm::dvec3(vertices_[triangle.z]) - origin));
+}
+
+glm::dvec3 TriangleMesh::surface_point(std::size_t i, double u, double v) const {
+  const Triangle& triangle = triangles_[i];
+  // The strip between the first corner and the line at share s of the way to the opposite edge has the share s * s of the area.
+  const double s = std::sqrt(u);
+  // From one corner on, so that the points of a triangle in the plane of a box's side lie in it exactly.
+  const glm::dvec3 origin(vertices_[triangle.x]);
+  return origin + s * (1.0 - v) * (glm::dvec3(vertices_[triangle.y]) - origin) + s * v * (glm::dvec3(vertices_[triangle.z]) - origin);
 }
 
 void TriangleMesh::locate(Hit& hit) const {

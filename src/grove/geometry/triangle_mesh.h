@@ -52,6 +52,10 @@ class TriangleMesh {
   /// Bounds of the part of triangle i inside `box`: exact up to outward rounding; empty when they do not meet.
   [[nodiscard]] Box clip(std::size_t i, const Box& box) const;
 
+  /// As SampledGeometry asks.
+  [[nodiscard]] double surface_area(std::size_t i) const;
+  [[nodiscard]] glm::dvec3 surface_point(std::size_t i, double u, double v) const;
+
   [[nodiscard]] static PreparedRay prepare(const Ray& ray) { return WatertightRay(ray); }
 
   /// Tests triangle i; on a hit that is closer than `hit` (or as close, with a lower id) replaces it. `hit.primitive` is a whole-mesh

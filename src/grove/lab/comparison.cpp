@@ -128,11 +128,11 @@ class Run {
     if (progress_.stop.stop_requested()) return;
     try {
       const SceneAccelerator accelerator(scene_, contender.spec);
+      const StructureQuality quality = accelerator.measure_quality();
       for (std::size_t i = 0; i < workloads_.size(); ++i) {
         Workload& workload = workloads_[i];
         ComparisonRow& row = contender.rows[i];
-        row.bytes = accelerator.statistics().bytes;
-        row.expected_cost = accelerator.statistics().expected_cost;
+        describe_structure(accelerator.statistics(), quality, row);
         row.error = workload.error;
         if (workload.error.empty()) check(accelerator.top(), workload, contender.stride, row);
         step();

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "grove/base/progress.h"
+#include "grove/lab/comparison_row.h"
 #include "grove/lab/machine.h"
-#include "grove/lab/spread.h"
 #include "grove/lab/workload.h"
 
 namespace grove {
@@ -22,25 +22,6 @@ struct ComparisonSettings {
   std::string camera;
   /// Ray-primitive tests that checking by brute force may take, for each kind of rays.
   std::uint64_t check_budget = 20'000'000;
-};
-
-/// One structure on one kind of rays.
-struct ComparisonRow {
-  std::string structure;  ///< canonical spec
-  RayKind rays = RayKind::primary;
-  /// Rays that were traced: all, or for brute force an even sample of them where all would take long.
-  std::size_t ray_count = 0;
-  /// Why the row has no times: the structure could not be built or traced, or its hits are wrong. Empty when all is well.
-  std::string error;
-  Spread mrays_per_s;
-  /// Rate over the rate of the first structure on the same rays in the same round. Zero when that has none.
-  Spread ratio_to_first;
-  double nodes_per_ray = 0.0;
-  double tests_per_ray = 0.0;
-  Spread build_seconds;
-  std::uint64_t bytes = 0;  ///< of the structure, without the geometry
-  double expected_cost = 0.0;
-  std::uint64_t mismatches = 0;  ///< rays whose hit is not the reference's, bit for bit
 };
 
 struct Comparison {
@@ -61,7 +42,7 @@ struct Comparison {
 /// Adds a line to `notes` when it is left out.
 [[nodiscard]] std::vector<std::string> default_specs(std::uint64_t primitive_count, std::vector<std::string>& notes);
 
-/// Builds each structure over `scene` and traces each kind of rays with it. All hits are checked and all work is counted first; then
+/// Builds each structure over `scene` and traces each kind of rays with it. All hits are checked, all work is counted and quality is measured first; then
 /// building and tracing are timed, interleaved: in each round every structure in turn, so that what disturbs the machine disturbs all of
 /// them. Only one structure is in memory at a time. Runs in the caller's oneTBB arena. A structure that fails keeps its rows, with the
 /// reason. Progress counts rays. When `progress.stop` asks, returns after the step under way, with the rounds that were finished.

@@ -13,11 +13,12 @@ namespace grove {
 /// cpu, cores, threads, compiler, commit and os.
 [[nodiscard]] nlohmann::ordered_json machine_json(const Machine& machine);
 
-/// A table for people, one block a kind of rays; failed rows carry their reason. The notes follow.
+/// Two tables for people: what each structure is, and how it traces each kind of rays, one block a kind. Failed rows carry their reason. The notes
+/// follow.
 [[nodiscard]] std::string comparison_table(const Comparison& comparison);
 
-/// scene, machine and rows: structure, rays, ray_count, mrays_per_s, nodes_per_ray, tests_per_ray, build_seconds, bytes, expected_cost, mismatches,
-/// ratio_to_first. A failed row has an `error`, and null for each figure that it lacks.
+/// scene, machine and rows: structure, rays, ray_count, mrays_per_s, nodes_per_ray, tests_per_ray, build_seconds, bytes, expected_cost,
+/// end_point_overlap, sibling_overlap, references, nodes, leaves, depth, mismatches, ratio_to_first. A failed row has an `error`, and null for each figure that it lacks.
 [[nodiscard]] nlohmann::ordered_json comparison_json(const Comparison& comparison);
 
 /// A heading and one line a row, comma-separated as RFC 4180 has it, except that lines end with a newline alone.

@@ -13,6 +13,17 @@ namespace {
 constexpr std::size_t kMostBars = 24;
 constexpr std::size_t kLongestBar = 40;
 
+// 0 where there is nothing to share.
+double ratio(std::uint64_t value, std::uint64_t count) {
+  return count == 0 ? 0.0 : static_cast<double>(value) / static_cast<double>(count);
+}
+
+double mean_leaf_depth(const StructureStatistics& statistics) {
+  std::uint64_t sum = 0;
+  for (std::size_t depth = 0; depth < statistics.depths.size(); ++depth) sum += depth * statistics.depths[depth];
+  return ratio(sum, statistics.leaves);
+}
+
 }  // namespace
 
 nlohmann::ordered_json structure_json(std::string_view spec, const StructureStatistics& statistics, unsigned threads) {
@@ -26,26 +37,51 @@ nlohmann::ordered_json structure_json(std::string_view spec, const StructureStat
           {"build_seconds", statistics.build_seconds},
           {"expected_cost", statistics.expected_cost},
           {"threads", threads},
+          {"mean_leaf_size", ratio(statistics.references, statistics.leaves)},
+          {"largest_leaf", statistics.largest_leaf},
+          {"mean_leaf_depth", mean_leaf_depth(statistics)},
           {"leaf_sizes", statistics.leaf_sizes},
           {"leaf_depths", statistics.depths}};
 }
 
-std::string structure_text(std::string_view spec, const StructureStatistics& statistics, unsigned threads) {
-  const auto per_primitive = [&](std::uint64_t value) {
-    return statistics.primitives == 0 ? 0.0 : static_cast<double>(value) / static_cast<double>(statistics.primitives);
-  };
+nlohmann::ordered_json quality_json(const StructureQuality& quality) {
+  nlohmann::ordered_json json{{"end_point_overlap", nullptr},
+                              {"end_point_overlap_error", nullptr},
+                              {"end_point_overlap_samples", nullptr},
+                              {"sibling_overlap", nullptr},
+                              {"duplication", nullptr}};
+  if (quality.end_point_overlap) {
+    json["end_point_overlap"] = quality.end_point_overlap->value;
+    json["end_point_overlap_error"] = quality.end_point_overlap->error;
+    json["end_point_overlap_samples"] = quality.end_point_overlap->sample_count;
+  }
+  if (quality.sibling_overlap) json["sibling_overlap"] = *quality.sibling_overlap;
+  if (quality.duplication) json["duplication"] = *quality.duplication;
+  return json;
+}
+
+std::string structure_text(std::string_view spec, const StructureStatistics& statistics, const StructureQuality& quality,
+                           unsigned threads) {
+  const auto per_primitive = [&](std::uint64_t value) { return ratio(value, statistics.primitives); };
   std::string text;
-  const auto add = [&](std::string_view name, const std::string& value) { text += fmt::format("{:<14} {}\n", name, value); };
+  const auto add = [&](std::string_view name, const std::string& value) { text += fmt::format("{:<18} {}\n", name, value); };
   add("structure", std::string(spec));
   add("primitives", with_separators(statistics.primitives));
   add("references",
       fmt::format("{}  ({} per primitive)", with_separators(statistics.references), short_number(per_primitive(statistics.references))));
   add("nodes", with_separators(statistics.nodes));
-  add("leaves", with_separators(statistics.leaves));
-  add("depth", std::to_string(statistics.depth));
+  add("leaves", fmt::format("{}  ({} references on average, {} at most)", with_separators(statistics.leaves),
+                            short_number(ratio(statistics.references, statistics.leaves)), with_separators(statistics.largest_leaf)));
+  add("depth", fmt::format("{}  ({} on average over leaves)", statistics.depth, short_number(mean_leaf_depth(statistics))));
   add("memory", fmt::format("{}  ({} B per primitive)", byte_size(statistics.bytes), short_number(per_primitive(statistics.bytes))));
   add("built in", fmt::format("{} on {} thread{}", duration(statistics.build_seconds), threads, threads == 1 ? "" : "s"));
   add("expected cost", short_number(statistics.expected_cost));
+  if (const auto& overlap = quality.end_point_overlap) {
+    add("end-point overlap", fmt::format("{}  (standard error {}, {} points)", short_number(overlap->value), short_number(overlap->error),
+                                         with_separators(overlap->sample_count)));
+  }
+  if (quality.sibling_overlap) add("sibling overlap", short_number(*quality.sibling_overlap));
+  if (quality.duplication) add("duplication", short_number(*quality.duplication));
   text += "\nleaves by number of references\n" + histogram_text(statistics.leaf_sizes, true);
   text += "\nleaves by depth\n" + histogram_text(statistics.depths, false);
   return text;

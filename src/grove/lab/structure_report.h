@@ -10,11 +10,16 @@
 namespace grove {
 
 /// A built structure as `grove inspect` writes it: structure, primitives, references, nodes, leaves, depth, bytes, build_seconds,
-/// expected_cost, threads, and the histograms leaf_sizes and leaf_depths.
+/// expected_cost, threads, mean_leaf_size, largest_leaf, mean_leaf_depth, and the histograms leaf_sizes and leaf_depths.
 [[nodiscard]] nlohmann::ordered_json structure_json(std::string_view spec, const StructureStatistics& statistics, unsigned threads);
 
+/// What is measured only when asked for: end_point_overlap with its end_point_overlap_error and end_point_overlap_samples, sibling_overlap, duplication.
+/// Null where there is no such figure.
+[[nodiscard]] nlohmann::ordered_json quality_json(const StructureQuality& quality);
+
 /// The same for people: one line a figure, and the histograms as bars.
-[[nodiscard]] std::string structure_text(std::string_view spec, const StructureStatistics& statistics, unsigned threads);
+[[nodiscard]] std::string structure_text(std::string_view spec, const StructureStatistics& statistics, const StructureQuality& quality,
+                                         unsigned threads);
 
 /// A bar for each bin from the first that is not empty to the last; many bins are drawn together in ranges. The last bin reads "n+" when
 /// `last_is_open`.

@@ -22,6 +22,7 @@ StructureState<Brute> look_at(const G& geometry) {
   statistics.leaves = 1;
   statistics.expected_cost = static_cast<double>(statistics.references);
   statistics.depths = {1};
+  statistics.largest_leaf = static_cast<std::uint32_t>(statistics.references);
   statistics.build_seconds = timer.seconds();
   return state;
 }
@@ -40,8 +41,10 @@ UpdateReport update(StructureState<Brute>& state, const G& geometry, const Updat
 template <Geometry G>
 std::unique_ptr<Accelerator> build_over(std::string spec, std::shared_ptr<const G> geometry) {
   const auto visit = [](const Brute&, const std::function<void(const NodeView&)>&) {};
+  const auto measure = [](const Brute&, const G&) { return StructureQuality{}; };
   StructureState<Brute> state = look_at(*geometry);
-  return std::make_unique<StructureAccelerator<Brute, G>>(std::move(state), std::move(geometry), std::move(spec), visit, update<G>);
+  return std::make_unique<StructureAccelerator<Brute, G>>(std::move(state), std::move(geometry), std::move(spec), visit, measure,
+                                                          update<G>);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ template <BoundingVolume V>
   const BvhOptions options(spec);
   return std::visit(
       [&](const auto& set) {
-        return make_hierarchy_accelerator<VolumeBvh<V>>(spec, set, [&](const auto& primitives) {
+        return make_hierarchy_accelerator<VolumeBvh<V>>(spec, set, [options](const auto& primitives) {
           const Bvh2 bvh = build_binary_hierarchy(primitives, options);
           return rebound<V>(bvh, list_hulls(primitives, bvh.references), collapse_settings(options));
         });

@@ -6,6 +6,7 @@
 #include "grove/base/check.h"
 #include "grove/base/timer.h"
 #include "grove/build/cost_model.h"
+#include "grove/build/quality/measure_quality.h"
 #include "grove/registry/hierarchy_statistics.h"
 #include "grove/registry/hierarchy_update.h"
 #include "grove/registry/spec.h"
@@ -39,8 +40,9 @@ template <typename Hierarchy, Geometry G, typename Build>
   const auto rebuild = [build = std::move(build)](const G& set) { return build_hierarchy<Hierarchy>(set, build); };
   StructureState<Structure> state = rebuild(*geometry);
   const auto view = [](const Structure& s, const std::function<void(const NodeView&)>& visit) { view_nodes(s.bvh, visit); };
+  const auto measure = [](const Structure& s, const G& set) { return measure_quality(s.bvh, set); };
   HierarchyUpdater<Hierarchy, G, decltype(rebuild)> updater(rebuild, part_settings);
-  return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), view,
+  return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), view, measure,
                                                               std::move(updater));
 }
 

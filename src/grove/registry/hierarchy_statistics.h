@@ -22,6 +22,7 @@ template <typename Hierarchy>
     ++statistics.leaves;
     ++statistics.leaf_sizes[std::min<std::size_t>(count, kHistogramSize - 1)];
     ++statistics.depths[depth];
+    statistics.largest_leaf = std::max(statistics.largest_leaf, count);
   });
   return statistics;
 }

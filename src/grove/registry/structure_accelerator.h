@@ -19,26 +19,30 @@ struct StructureState {
 };
 
 /// The bridge from a structure and a geometry, both known at compile time, to Accelerator. `Structure` is plain data for which the
-/// functions trace_closest(structure, geometry, ray, hit, counter) and trace_any(…) exist (rooms accel and traverse); how it is drawn and
-/// how it follows its geometry is passed in, since only the registry's row knows.
+/// functions trace_closest(structure, geometry, ray, hit, counter) and trace_any(…) exist (rooms accel and traverse); how it is drawn,
+/// judged and made to follow its geometry is passed in, since only the registry's row knows.
 template <typename Structure, Geometry G>
 class StructureAccelerator final : public Accelerator {
  public:
   using State = StructureState<Structure>;
   using NodeVisitor = void (*)(const Structure&, const std::function<void(const NodeView&)>&);
+  using QualityMeasure = StructureQuality (*)(const Structure&, const G&);
   using Updater = std::function<UpdateReport(State&, const G&, const UpdateSettings&)>;
 
-  StructureAccelerator(State state, std::shared_ptr<const G> geometry, std::string spec, NodeVisitor node_visitor, Updater updater)
+  StructureAccelerator(State state, std::shared_ptr<const G> geometry, std::string spec, NodeVisitor node_visitor,
+                       QualityMeasure quality_measure, Updater updater)
       : state_(std::move(state)),
         geometry_(std::move(geometry)),
         spec_(std::move(spec)),
         node_visitor_(node_visitor),
+        quality_measure_(quality_measure),
         updater_(std::move(updater)) {}
 
   [[nodiscard]] const std::string& spec() const override { return spec_; }
   [[nodiscard]] const StructureStatistics& statistics() const override { return state_.statistics; }
   [[nodiscard]] Box bounds() const override { return state_.bounds; }
 
+  [[nodiscard]] StructureQuality measure_quality() const override { return quality_measure_(state_.structure, *geometry_); }
   void visit_nodes(const std::function<void(const NodeView&)>& visit) const override { node_visitor_(state_.structure, visit); }
 
   UpdateReport update(const UpdateSettings& settings) override { return updater_(state_, *geometry_, settings); }
@@ -101,6 +105,7 @@ class StructureAccelerator final : public Accelerator {
   std::shared_ptr<const G> geometry_;
   std::string spec_;
   NodeVisitor node_visitor_;
+  QualityMeasure quality_measure_;
   Updater updater_;
 };
 

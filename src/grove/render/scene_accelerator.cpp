@@ -69,11 +69,18 @@ SceneAccelerator::SceneAccelerator(const Scene& scene, std::string_view spec) {
     statistics_.leaves += part.leaves;
     statistics_.bytes += part.bytes;
     deepest = std::max(deepest, part.depth);
+    statistics_.largest_leaf = std::max(statistics_.largest_leaf, part.largest_leaf);
     add_histogram(statistics_.leaf_sizes, part.leaf_sizes);
     add_histogram(statistics_.depths, part.depths);
   }
   statistics_.depth += deepest;
   statistics_.build_seconds = timer.seconds();  // objects are built side by side
+}
+
+StructureQuality SceneAccelerator::measure_quality() const {
+  if (!has_top_level()) return top_->measure_quality();
+  const auto size = [](const std::shared_ptr<const Accelerator>& object) { return object->statistics().primitives; };
+  return (*std::ranges::max_element(objects_, {}, size))->measure_quality();
 }
 
 }  // namespace grove

@@ -25,6 +25,10 @@ class SceneAccelerator {
   /// way through both; the cost is that of the top level, plus each instance's object by the chance that a ray meets it.
   [[nodiscard]] const StructureStatistics& statistics() const { return statistics_; }
 
+  /// The quality of the structure over the object with the most primitives (the first of equals): overlap is measured against surfaces, which a top
+  /// level has none of. Costs as much as Accelerator::measure_quality.
+  [[nodiscard]] StructureQuality measure_quality() const;
+
   /// The instance of the scene that a hit lies on.
   [[nodiscard]] static std::uint32_t instance_of(const Hit& hit) { return hit.instance == kInvalidId ? 0 : hit.instance; }
 

@@ -53,7 +53,15 @@ void set_child_boxes(WideNode<N>& node, const Box4* boxes, int count) {
   for (int i = 0; i < count; ++i) node.set_child(i, boxes[i].box(), node.child[i]);
 }
 
-template <typename Hierarchy, LeafBounds F>
+}  // namespace detail
+
+/// A hierarchy whose nodes hold the boxes of their children: a Bvh2 or a WideBvh.
+template <typename H>
+concept BoxHierarchy = requires(const H& hierarchy) { detail::child_count(hierarchy.nodes.front()); };
+
+namespace detail {
+
+template <BoxHierarchy Hierarchy, LeafBounds F>
 class Refitter {
  public:
   Refitter(Hierarchy& hierarchy, const F& leaf_bounds, const CostModel& cost, float area_scale)
@@ -105,9 +113,9 @@ class Refitter {
 
 }  // namespace detail
 
-/// Measures all boxes of `hierarchy` (a Bvh2 or a WideBvh) anew and returns its expected cost (build/cost_model.h), or infinity or NaN where
+/// Measures all boxes of `hierarchy` anew and returns its expected cost (build/cost_model.h), or infinity or NaN where
 /// boxes have grown beyond all measure. No leaf's bounds may be empty. O(references), parallel; the same for any number of threads.
-template <typename Hierarchy, LeafBounds F>
+template <BoxHierarchy Hierarchy, LeafBounds F>
 double refit(Hierarchy& hierarchy, const F& leaf_bounds, const CostModel& cost = {}) {
   if (hierarchy.references.empty()) return 0.0;
   const float scale = AreaMeasure(hierarchy.bounds).scale();
