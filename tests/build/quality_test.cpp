@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
-#include <oneapi/tbb/task_arena.h>
 
-#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "build/exact_overlap.h"
 #include "build/hand_made_bvh.h"
 #include "build/sample_meshes.h"
+#include "build/threads.h"
 #include "grove/build/bottom_up/lbvh.h"
 #include "grove/build/passes/collapse.h"
 #include "grove/build/quality/measure_quality.h"
@@ -148,10 +148,7 @@ TEST(EndPointOverlap, EstimateIsWithoutBiasAndKnowsItsError) {
 TEST(MeasureQuality, DoesNotDependOnTheThreads) {
   const TriangleMesh mesh = testing::pebbles(20000, 0.05F, 15);
   const Bvh2 bvh = build_top_down(list_references(mesh), {});
-  const auto measure_with = [&](int threads) {
-    oneapi::tbb::task_arena arena(threads);
-    return arena.execute([&] { return measure_quality(bvh, mesh); });
-  };
+  const auto measure_with = [&](int threads) { return testing::with_threads(threads, [&] { return measure_quality(bvh, mesh); }); };
   const StructureQuality one = measure_with(1);
   const StructureQuality three = measure_with(3);
   EXPECT_EQ(one.end_point_overlap->value, three.end_point_overlap->value);

@@ -16,10 +16,11 @@ template <Geometry G>
   const AreaMeasure measure(list.bounds);
   const SplitContext context{measure.scale(), SubsetTime(settings.cost)};
   const auto least_overlap = static_cast<float>(settings.least_overlap * measure.half_area(list.bounds));
-  const double wanted = static_cast<double>(list.references.size()) * (1.0 + settings.duplication_budget);
+  const std::size_t size = list.references.size();
+  const double wanted = static_cast<double>(size) * (1.0 + settings.duplication_budget);
   const auto capacity = static_cast<std::size_t>(std::min(wanted, static_cast<double>(std::numeric_limits<std::int32_t>::max())));
   const SpatialHeuristic<G> heuristic(context, geometry, least_overlap);
-  return detail::drive_top_down(std::move(list), std::max(capacity, list.references.size()), settings, heuristic);
+  return detail::drive_top_down(std::move(list), std::max(capacity, size), settings, heuristic);
 }
 
 }  // namespace grove
