@@ -6,8 +6,8 @@
 
 namespace grove {
 
-template <int N>
-std::string WideBvh<N>::validate(std::size_t primitive_count) const {
+template <int kWidth>
+std::string WideBvh<kWidth>::validate(std::size_t primitive_count) const {
   if (references.empty()) return nodes.empty() && bounds.is_empty() && depth == 0 ? "" : "an empty hierarchy has nodes, bounds or depth";
   std::vector<bool> node_seen(nodes.size(), false);
   std::vector<bool> reference_seen(references.size(), false);
@@ -41,9 +41,9 @@ std::string WideBvh<N>::validate(std::size_t primitive_count) const {
     if (top.first >= nodes.size()) return "a child names a node that is not there";
     if (node_seen[top.first]) return "a node has two parents";
     node_seen[top.first] = true;
-    const WideNode<N>& node = nodes[top.first];
+    const WideNode<kWidth>& node = nodes[top.first];
     if (!node.has_child(1)) return "a node has fewer than two children";
-    for (int i = 0; i < N; ++i) {
+    for (int i = 0; i < kWidth; ++i) {
       if (!node.has_child(i)) continue;
       if (i > 0 && !node.has_child(i - 1)) return "a node has a gap between its children";
       if (!top.box.contains(node.child_box(i))) return "a child reaches outside its parent";

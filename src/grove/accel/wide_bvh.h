@@ -9,19 +9,19 @@
 
 namespace grove {
 
-/// An interior node with up to N children.
+/// An interior node with up to kWidth children.
 ///
 ///   planes[axis][0][i], planes[axis][1][i]: lower and upper bound of child i; unused places have an inverted infinite box, which no ray meets
 ///   child[i]: `count` references from `first` on when it is a leaf; with a count of 0 the node number `first`
-template <int N>
+template <int kWidth>
 struct alignas(64) WideNode {
   struct Child {
     std::uint32_t first;
     std::uint32_t count;
   };
 
-  float planes[3][2][N];
-  Child child[N];
+  float planes[3][2][kWidth];
+  Child child[kWidth];
 
   [[nodiscard]] Box child_box(int i) const {
     return {{planes[0][0][i], planes[1][0][i], planes[2][0][i]}, {planes[0][1][i], planes[1][1][i], planes[2][1][i]}};
@@ -40,16 +40,16 @@ struct alignas(64) WideNode {
 static_assert(sizeof(WideNode<4>) == 128);
 static_assert(sizeof(WideNode<8>) == 256);
 
-/// A bounding volume hierarchy over axis-aligned boxes with up to N children a node, as plain data. Node 0 is the root, children have higher
+/// A bounding volume hierarchy over axis-aligned boxes with up to kWidth children a node, as plain data. Node 0 is the root, children have higher
 /// numbers than their parents; a hierarchy whose root is a leaf has no nodes. Knows boxes and primitive ids, no geometry.
-template <int N>
+template <int kWidth>
 struct WideBvh {
-  HugeVector<WideNode<N>> nodes;
+  HugeVector<WideNode<kWidth>> nodes;
   HugeVector<std::uint32_t> references;  ///< primitive ids, leaf by leaf
   Box bounds;
   std::uint32_t depth = 0;  ///< edges from the root to the deepest leaf; at most Bvh2::kMaxDepth
 
-  [[nodiscard]] std::size_t memory() const { return nodes.size() * sizeof(WideNode<N>) + references.size() * sizeof(std::uint32_t); }
+  [[nodiscard]] std::size_t memory() const { return nodes.size() * sizeof(WideNode<kWidth>) + references.size() * sizeof(std::uint32_t); }
 
   /// The first broken invariant in words, or an empty string; as Bvh2::validate.
   [[nodiscard]] std::string validate(std::size_t primitive_count) const;
@@ -59,9 +59,9 @@ struct WideBvh {
   void visit(const Visitor& visitor) const;
 };
 
-template <int N>
+template <int kWidth>
 template <typename Visitor>
-void WideBvh<N>::visit(const Visitor& visitor) const {
+void WideBvh<kWidth>::visit(const Visitor& visitor) const {
   struct Pending {
     Box box;
     std::uint32_t depth, first, count;
@@ -73,8 +73,8 @@ void WideBvh<N>::visit(const Visitor& visitor) const {
     stack.pop_back();
     visitor(top.box, top.depth, top.first, top.count);
     if (top.count > 0) continue;
-    const WideNode<N>& node = nodes[top.first];
-    for (int i = N - 1; i >= 0; --i)
+    const WideNode<kWidth>& node = nodes[top.first];
+    for (int i = kWidth - 1; i >= 0; --i)
       if (node.has_child(i)) stack.push_back({node.child_box(i), top.depth + 1, node.child[i].first, node.child[i].count});
   }
 }

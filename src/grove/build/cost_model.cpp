@@ -44,8 +44,8 @@ double expected_cost(const Bvh2& bvh, const CostModel& model) {
   return cost_of(bvh, model);
 }
 
-template <int N>
-double expected_cost(const WideBvh<N>& bvh, const CostModel& model) {
+template <int kWidth>
+double expected_cost(const WideBvh<kWidth>& bvh, const CostModel& model) {
   return cost_of(bvh, model);
 }
 

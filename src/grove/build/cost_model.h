@@ -11,7 +11,7 @@
 namespace grove {
 
 struct Bvh2;
-template <int N>
+template <int kWidth>
 struct WideBvh;
 template <BoundingVolume V>
 struct VolumeBvh;
@@ -44,8 +44,8 @@ class AreaMeasure {
 [[nodiscard]] double expected_cost(const Bvh2& bvh, const CostModel& model);
 
 /// The same for a wide hierarchy; `model.traversal` is then the time of a step through a wide node.
-template <int N>
-[[nodiscard]] double expected_cost(const WideBvh<N>& bvh, const CostModel& model);
+template <int kWidth>
+[[nodiscard]] double expected_cost(const WideBvh<kWidth>& bvh, const CostModel& model);
 
 /// The same by the areas of the hierarchy's own volumes, for a ray that meets the volume of the root.
 template <BoundingVolume V>

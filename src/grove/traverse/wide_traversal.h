@@ -15,7 +15,7 @@
 namespace grove {
 
 /// The box tests of a wide node for one ray.
-template <int N>
+template <int kWidth>
 class WideSlabs {
  public:
   explicit WideSlabs(const SlabRay& ray) {
@@ -29,9 +29,9 @@ class WideSlabs {
   }
 
   /// Writes the entry distances of all places; bit i of the result is set where child i is met within [t_min, t_max].
-  [[nodiscard, gnu::always_inline]] unsigned test(const WideNode<N>& node, Float4 t_min, Float4 t_max, float* entry) const {
+  [[nodiscard, gnu::always_inline]] unsigned test(const WideNode<kWidth>& node, Float4 t_min, Float4 t_max, float* entry) const {
     unsigned met = 0;
-    for (int group = 0; group < N / 4; ++group) {
+    for (int group = 0; group < kWidth / 4; ++group) {
       // min and max keep the second operand where the first is NaN: a ray inside a plane is not limited by it.
       Float4 near = t_min;
       Float4 far = t_max;
@@ -54,23 +54,24 @@ class WideSlabs {
 };
 
 /// Walks the leaves that the ray meets; the contract is that of the walk through a Bvh2.
-template <int N, typename LeafTest, typename LeafPrefetch, typename C>
-void walk(const WideBvh<N>& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, const LeafPrefetch& prefetch_leaf, C& counter) {
+template <int kWidth, typename LeafTest, typename LeafPrefetch, typename C>
+void walk(const WideBvh<kWidth>& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, const LeafPrefetch& prefetch_leaf,
+          C& counter) {
   if (bvh.references.empty()) return;
   if (bvh.nodes.empty()) {
     counter.enter_leaf();
     leaf(0U, static_cast<std::uint32_t>(bvh.references.size()));
     return;
   }
-  using Child = typename WideNode<N>::Child;
+  using Child = typename WideNode<kWidth>::Child;
   struct Entry {
     Child child;
     float t;
   };
-  // Each level leaves at most N - 1 behind.
-  Entry stack[(N - 1) * Bvh2::kMaxDepth + N];
+  // Each level leaves at most kWidth - 1 behind.
+  Entry stack[(kWidth - 1) * Bvh2::kMaxDepth + kWidth];
   std::uint32_t stack_size = 0;
-  const WideSlabs<N> slabs(SlabRay(ray, bvh.bounds));
+  const WideSlabs<kWidth> slabs(SlabRay(ray, bvh.bounds));
   const Float4 t_min = splat(ray.t_min > 0.0F ? ray.t_min : 0.0F);
   Float4 limit = splat(t_max);
   Child next{0, 0};
@@ -80,9 +81,9 @@ void walk(const WideBvh<N>& bvh, const Ray& ray, const float& t_max, const LeafT
       if (leaf(next.first, next.count)) return;
       limit = splat(t_max);
     } else {
-      const WideNode<N>& node = bvh.nodes[next.first];
+      const WideNode<kWidth>& node = bvh.nodes[next.first];
       counter.visit_node();
-      float entry[N];
+      float entry[kWidth];
       unsigned met = slabs.test(node, t_min, limit, entry);
       if (met != 0) {
         const std::uint32_t bottom = stack_size;
@@ -94,7 +95,7 @@ void walk(const WideBvh<N>& bvh, const Ray& ray, const float& t_max, const LeafT
             prefetch_leaf(child.first);
           } else {
             const char* const line = reinterpret_cast<const char*>(bvh.nodes.data() + child.first);
-            for (std::size_t offset = 0; offset < sizeof(WideNode<N>); offset += 64) __builtin_prefetch(line + offset);
+            for (std::size_t offset = 0; offset < sizeof(WideNode<kWidth>); offset += 64) __builtin_prefetch(line + offset);
           }
           // Insertion by distance, the nearest on top; mostly there are one or two.
           std::uint32_t place = stack_size++;

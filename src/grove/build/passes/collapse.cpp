@@ -18,9 +18,9 @@ Box slot_box(const Bvh2& bvh, std::uint32_t slot) {
 
 void clear(Bvh2Node& /*node*/) {}
 
-template <int N>
-void clear(WideNode<N>& node) {
-  for (int i = 0; i < N; ++i) node.set_child(i, Box(), {0, 0});
+template <int kWidth>
+void clear(WideNode<kWidth>& node) {
+  for (int i = 0; i < kWidth; ++i) node.set_child(i, Box(), {0, 0});
 }
 
 // Emits a planned hierarchy in depth-first order. `Output` has nodes, references, bounds and depth; set_child(node, i, box, first, count)
@@ -254,16 +254,16 @@ Bvh2 collapse_leaves(const Bvh2& bvh, const CollapseSettings& settings) {
   return collapsed;
 }
 
-template <int N>
-WideBvh<N> widen(const Bvh2& bvh, const CollapseSettings& settings) {
-  WideBvh<N> wide;
+template <int kWidth>
+WideBvh<kWidth> widen(const Bvh2& bvh, const CollapseSettings& settings) {
+  WideBvh<kWidth> wide;
   if (bvh.references.empty()) return wide;
   CollapseSettings of_arity = settings;
-  of_arity.arity = N;
+  of_arity.arity = kWidth;
   const SlotAreas areas = box_areas(bvh);
   const CollapsePlan plan(bvh, areas.slots, areas.root, of_arity);
-  wide.nodes.reserve(bvh.nodes.size() / static_cast<std::size_t>(N));
-  emit(bvh, plan, wide, [](WideNode<N>& node, int i, const Box& box, std::uint32_t first, std::uint32_t count) {
+  wide.nodes.reserve(bvh.nodes.size() / static_cast<std::size_t>(kWidth));
+  emit(bvh, plan, wide, [](WideNode<kWidth>& node, int i, const Box& box, std::uint32_t first, std::uint32_t count) {
     node.set_child(i, box, {first, count});
   });
   return wide;

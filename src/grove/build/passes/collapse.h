@@ -6,12 +6,12 @@
 //
 // - optimal: dynamic programming over the binary tree (Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed
 //   Wide BVHs", 2017, section 3.1). For each subtree the least cost of replacing it by at most k subtrees, for all k.
-// - greedy: the multi-way split from the top down. A set is split into up to N subsets by splitting, again and again, the subset whose splitting
+// - greedy: the multi-way split from the top down. A set is split into up to kWidth subsets by splitting, again and again, the subset whose splitting
 //   lowers the node's cost most. How a subset is split depends on the subset alone, so splitting sets from the top is the
 //   same as opening nodes of the binary tree of all splits from the top, which is what is done here. A set stays whole where testing it costs
 //   no more than its multi-way split.
 //
-// With N = 2 the optimal plan opens nothing and decides the leaves of a binary hierarchy.
+// With kWidth = 2 the optimal plan opens nothing and decides the leaves of a binary hierarchy.
 
 #include <cstdint>
 #include <span>
@@ -95,8 +95,8 @@ struct SlotAreas {
 /// spatial split) names it once. O(nodes + references).
 [[nodiscard]] Bvh2 collapse_leaves(const Bvh2& bvh, const CollapseSettings& settings);
 
-/// The hierarchy with up to N children a node (settings.arity is taken as N). Otherwise as collapse_leaves.
-template <int N>
-[[nodiscard]] WideBvh<N> widen(const Bvh2& bvh, const CollapseSettings& settings);
+/// The hierarchy with up to kWidth children a node (settings.arity is taken as kWidth). Otherwise as collapse_leaves.
+template <int kWidth>
+[[nodiscard]] WideBvh<kWidth> widen(const Bvh2& bvh, const CollapseSettings& settings);
 
 }  // namespace grove

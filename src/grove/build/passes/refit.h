@@ -42,14 +42,14 @@ inline int child_count(const Bvh2Node& /*node*/) {
 inline void set_child_boxes(Bvh2Node& node, const Box4* boxes, int /*count*/) {
   set_children(node, boxes[0], boxes[1]);
 }
-template <int N>
-int child_count(const WideNode<N>& node) {
+template <int kWidth>
+int child_count(const WideNode<kWidth>& node) {
   int count = 0;
-  while (count < N && node.has_child(count)) ++count;
+  while (count < kWidth && node.has_child(count)) ++count;
   return count;
 }
-template <int N>
-void set_child_boxes(WideNode<N>& node, const Box4* boxes, int count) {
+template <int kWidth>
+void set_child_boxes(WideNode<kWidth>& node, const Box4* boxes, int count) {
   for (int i = 0; i < count; ++i) node.set_child(i, boxes[i].box(), node.child[i]);
 }
 
@@ -57,7 +57,9 @@ void set_child_boxes(WideNode<N>& node, const Box4* boxes, int count) {
 
 /// A hierarchy whose nodes hold the boxes of their children: a Bvh2 or a WideBvh.
 template <typename H>
-concept BoxHierarchy = requires(const H& hierarchy) { detail::child_count(hierarchy.nodes.front()); };
+concept BoxHierarchy = requires(const H& hierarchy) {
+  detail::child_count(hierarchy.nodes.front());
+};
 
 namespace detail {
 
