@@ -91,6 +91,7 @@ TEST(FitOrientedBox, FindsTheFrameOfATurnedBox) {
     const glm::dvec3 v = glm::normalize(glm::cross(u, random_point(random)));
     const glm::dvec3 w = glm::cross(u, v);
     std::vector<Vec3> corners;
+    corners.reserve(8);
     for (int corner = 0; corner < 8; ++corner)
       corners.emplace_back(u * ((corner & 1) != 0 ? 0.5 : -0.5) + v * ((corner & 2) != 0 ? 0.1 : -0.1) +
                            w * ((corner & 4) != 0 ? 0.02 : -0.02));

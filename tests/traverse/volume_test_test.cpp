@@ -97,6 +97,8 @@ Case aim(const Box& bounds, const UnitSpace& space, const glm::dvec3& unit_point
     from += direction(random) * (random.next_u32(6) == 0 ? 1e-6 : far);
   }
   result.ray.origin = rounded(space.centre + from / space.scale);
+  result.t = 0.0F;
+  if (!result.ray.is_traceable()) return result;  // too far away
   const glm::dvec3 origin(result.ray.origin);
   double largest = 0.0;
   for (int axis = 0; axis < 3; ++axis)

@@ -51,23 +51,23 @@ void HullRange::fit_planes(OrientedBox& box) const {
   }
 }
 
-HullRange::Farthest HullRange::farthest_from(const Vec3& from) const {
-  const glm::dvec3 centre(from);
+HullRange::Farthest HullRange::farthest_from(const Vec3& centre) const {
+  const glm::dvec3 middle(centre);
   const auto measure = [&](std::size_t first, std::size_t last) {
-    Farthest farthest{centre, -1.0};
+    Farthest farthest{middle, -1.0};
     if (list_.radii.empty()) {
       // Squared, with one root at the end.
       visit_points(first, last, [&](const glm::dvec3& point, double /*radius*/) {
-        const glm::dvec3 from_centre = point - centre;
-        const double squared = glm::dot(from_centre, from_centre);
+        const glm::dvec3 offset = point - middle;
+        const double squared = glm::dot(offset, offset);
         if (squared > farthest.distance) farthest = {point, squared};
       });
       farthest.distance = std::sqrt(farthest.distance);
     } else {
       visit_points(first, last, [&](const glm::dvec3& point, double radius) {
-        const double distance = glm::length(point - centre);
+        const double distance = glm::length(point - middle);
         if (distance + radius <= farthest.distance) return;
-        farthest = {distance > 0.0 ? point + (point - centre) * (radius / distance) : point + glm::dvec3(radius, 0.0, 0.0),
+        farthest = {distance > 0.0 ? point + (point - middle) * (radius / distance) : point + glm::dvec3(radius, 0.0, 0.0),
                     distance + radius};
       });
     }
@@ -76,7 +76,7 @@ HullRange::Farthest HullRange::farthest_from(const Vec3& from) const {
   std::vector<Farthest> chunks((count_ + kChunkSize - 1) / kChunkSize);
   parallel_chunks(count_, kChunkSize,
                   [&](std::size_t chunk, std::size_t first, std::size_t last) { chunks[chunk] = measure(first_ + first, first_ + last); });
-  Farthest all{centre, -1.0};
+  Farthest all{middle, -1.0};
   for (const Farthest& chunk : chunks)
     if (chunk.distance > all.distance) all = chunk;
   return all;
