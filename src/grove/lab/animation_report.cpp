@@ -44,10 +44,12 @@ std::string animation_table(const Animation& animation) {
     if (row.frame == 0) policies.push_back(row.policy);
   for (const UpdatePolicy policy : policies) {
     std::vector<const AnimationRow*> rows;
+    rows.reserve(animation.rows.size());
     for (const AnimationRow& row : animation.rows)
       if (row.policy == policy) rows.push_back(&row);
     const auto spread = [&](const auto& value) {
       std::vector<double> values;
+      values.reserve(rows.size());
       for (const AnimationRow* row : rows) values.push_back(value(*row));
       return spread_text(spread_of(values));
     };

@@ -6,12 +6,12 @@
 //
 // - optimal: dynamic programming over the binary tree (Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed
 //   Wide BVHs", 2017, section 3.1). For each subtree the least cost of replacing it by at most k subtrees, for all k.
-// - greedy: the multi-way split from the top down. A set is split into up to kWidth subsets by splitting, again and again, the subset whose splitting
+// - greedy: the multi-way split from the top down. A set is split into as many subsets as a node may have children by splitting, again and again, the subset whose splitting
 //   lowers the node's cost most. How a subset is split depends on the subset alone, so splitting sets from the top is the
 //   same as opening nodes of the binary tree of all splits from the top, which is what is done here. A set stays whole where testing it costs
 //   no more than its multi-way split.
 //
-// With kWidth = 2 the optimal plan opens nothing and decides the leaves of a binary hierarchy.
+// With an arity of 2 the optimal plan opens nothing and decides the leaves of a binary hierarchy.
 
 #include <cstdint>
 #include <span>
