@@ -40,7 +40,11 @@ template <typename Hierarchy, Geometry G, typename Build>
   const auto rebuild = [build = std::move(build)](const G& set) { return build_hierarchy<Hierarchy>(set, build); };
   StructureState<Structure> state = rebuild(*geometry);
   const auto view = [](const Structure& s, const std::function<void(const NodeView&)>& visit) { view_nodes(s.bvh, visit); };
-  const auto measure = [](const Structure& s, const G& set) { return measure_quality(s.bvh, set); };
+  const auto measure = [](const Structure& s, const G& set) {
+    // Overlap is told by boxes; those around other volumes say little about them.
+    if constexpr (BoxHierarchy<Hierarchy>) return measure_quality(s.bvh, set);
+    return StructureQuality{};
+  };
   HierarchyUpdater<Hierarchy, G, decltype(rebuild)> updater(rebuild, part_settings);
   return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), view, measure,
                                                               std::move(updater));
