@@ -24,7 +24,7 @@ StructureFamily describe_bvh() {
                0,
                0,
                "how a set is parted: surface-area heuristic over bins, over all object splits, or cutting primitives; equal counts; equal "
-               "volumes"},
+               "volumes; or joined along the Morton curve: by its bits, or nearest neighbours first"},
               {"cost", {"standard", "equation-2"}, 0, 0, 0, "the surface-area cost of a split: today's form, or the review's equation 2"},
               {"bounds",
                {"aabb", "obb", "sphere"},
