@@ -43,6 +43,7 @@ class Accelerator : public Traceable {
  public:
   /// The canonical spec: family and the keys that differ from their defaults.
   [[nodiscard]] virtual const std::string& spec() const = 0;
+  /// Counted at the first call after building or updating, O(nodes); the reference holds until the next update.
   [[nodiscard]] virtual const StructureStatistics& statistics() const = 0;
   /// Measures how good a hierarchy is, beyond its expected cost; figures that make no sense for the structure or the geometry are missing. This is
   /// not done when building, as it takes about as long: half a second for a million triangles on two threads, and some 80 bytes a primitive for a while.
@@ -54,8 +55,7 @@ class Accelerator : public Traceable {
   /// Follows the geometry after its primitives have moved (TriangleMesh::move_vertices and the like), so that hits are again those of a
   /// structure built anew, and says how. Primitives may not have been added or removed, but may have become unhittable or hittable. Where a
   /// form has no refit it is rebuilt. Must not run while rays are traced. Runs in parallel in the caller's oneTBB arena; the result does not depend
-  /// on the number of threads. `statistics` afterwards: cost, depth and references are right; node and leaf counts and histograms are those of
-  /// the last rebuild of parts or all, since rotations keep numbers and sizes but not depths.
+  /// on the number of threads.
   virtual UpdateReport update(const UpdateSettings& settings) = 0;
 
   /// Closest hits: hits[i] answers rays[i]. The spans must be of equal length. Runs in the calling thread; split the batch to use more.

@@ -10,31 +10,39 @@ template <Geometry G>
 StructureState<Brute> look_at(const G& geometry) {
   const Timer timer;
   StructureState<Brute> state;
-  StructureStatistics& statistics = state.statistics;
+  std::uint64_t hittable = 0;
   for (std::size_t i = 0; i < geometry.size(); ++i) {
     const Box box = geometry.bounds(i);
     if (box.is_empty()) continue;
     state.bounds.grow(box);
-    ++statistics.references;
+    ++hittable;
   }
-  statistics.primitives = geometry.size();
+  // Every primitive is tested, whatever the ray meets.
+  state.expected_cost = static_cast<double>(hittable);
+  state.build_seconds = timer.seconds();
+  return state;
+}
+
+template <Geometry G>
+StructureStatistics count(const StructureState<Brute>& state, const G& /*geometry*/) {
+  StructureStatistics statistics;
+  statistics.references = static_cast<std::uint64_t>(*state.expected_cost);
   statistics.nodes = 1;
   statistics.leaves = 1;
-  statistics.expected_cost = static_cast<double>(statistics.references);
+  statistics.expected_cost = *state.expected_cost;
   statistics.depths = {1};
   statistics.largest_leaf = static_cast<std::uint32_t>(statistics.references);
-  statistics.build_seconds = timer.seconds();
-  return state;
+  return statistics;
 }
 
 template <Geometry G>
 UpdateReport update(StructureState<Brute>& state, const G& geometry, const UpdateSettings& /*settings*/) {
   UpdateReport report;
-  report.built_cost = state.statistics.expected_cost;
+  report.built_cost = *state.expected_cost;
   state = look_at(geometry);
-  report.cost = state.statistics.expected_cost;
-  report.rebuilt_references = state.statistics.references;
-  report.seconds = state.statistics.build_seconds;
+  report.cost = *state.expected_cost;
+  report.rebuilt_references = static_cast<std::uint64_t>(report.cost);
+  report.seconds = state.build_seconds;
   return report;
 }
 
@@ -43,7 +51,7 @@ std::unique_ptr<Accelerator> build_over(std::string spec, std::shared_ptr<const 
   const auto visit = [](const Brute&, const std::function<void(const NodeView&)>&) {};
   const auto measure = [](const Brute&, const G&) { return StructureQuality{}; };
   StructureState<Brute> state = look_at(*geometry);
-  return std::make_unique<StructureAccelerator<Brute, G>>(std::move(state), std::move(geometry), std::move(spec), visit, measure,
+  return std::make_unique<StructureAccelerator<Brute, G>>(std::move(state), std::move(geometry), std::move(spec), count<G>, visit, measure,
                                                           update<G>);
 }
 

@@ -5,7 +5,6 @@
 
 #include "grove/base/check.h"
 #include "grove/base/timer.h"
-#include "grove/build/cost_model.h"
 #include "grove/build/quality/measure_quality.h"
 #include "grove/registry/hierarchy_statistics.h"
 #include "grove/registry/hierarchy_update.h"
@@ -23,13 +22,8 @@ template <typename Hierarchy, Geometry G, typename Build>
   GROVE_ASSERT(hierarchy.validate(geometry.size()).empty());
   TraceableHierarchy<Hierarchy, G> structure(std::move(hierarchy), geometry);
   const double seconds = timer.seconds();
-  StructureStatistics statistics = count_nodes(structure.bvh);
-  statistics.expected_cost = expected_cost(structure.bvh, CostModel{});
-  statistics.bytes = structure.memory();
-  statistics.primitives = geometry.size();
-  statistics.build_seconds = seconds;
   const Box bounds = structure.bvh.bounds;
-  return {std::move(structure), bounds, std::move(statistics)};
+  return {std::move(structure), bounds, seconds, {}};
 }
 
 /// Builds a hierarchy over a geometry and wraps it as an Accelerator. `build` is kept for rebuilding; parts are rebuilt by `part_settings`.
@@ -39,6 +33,12 @@ template <typename Hierarchy, Geometry G, typename Build>
   using Structure = TraceableHierarchy<Hierarchy, G>;
   const auto rebuild = [build = std::move(build)](const G& set) { return build_hierarchy<Hierarchy>(set, build); };
   StructureState<Structure> state = rebuild(*geometry);
+  const auto count = [](const StructureState<Structure>& s, const G& /*geometry*/) {
+    StructureStatistics statistics = count_nodes(s.structure.bvh);
+    statistics.expected_cost = expected_cost_of(s);
+    statistics.bytes = s.structure.memory();
+    return statistics;
+  };
   const auto view = [](const Structure& s, const std::function<void(const NodeView&)>& visit) { view_nodes(s.bvh, visit); };
   const auto measure = [](const Structure& s, const G& set) {
     // Overlap is told by boxes; those around other volumes say little about them.
@@ -46,7 +46,7 @@ template <typename Hierarchy, Geometry G, typename Build>
     return StructureQuality{};
   };
   HierarchyUpdater<Hierarchy, G, decltype(rebuild)> updater(rebuild, part_settings);
-  return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), view, measure,
+  return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), count, view, measure,
                                                               std::move(updater));
 }
 

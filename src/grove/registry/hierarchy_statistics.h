@@ -6,7 +6,7 @@
 
 namespace grove {
 
-/// Counts what visit(box, depth, first, count) of a hierarchy shows: nodes, leaves and their sizes and depths. The caller adds bytes, times and
+/// Counts what visit(box, depth, first, count) of a hierarchy shows: nodes, leaves and their sizes and depths. The caller adds bytes and
 /// cost. O(nodes).
 template <typename Hierarchy>
 [[nodiscard]] StructureStatistics count_nodes(const Hierarchy& hierarchy) {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "grove/base/timer.h"
+#include "grove/build/cost_model.h"
 #include "grove/build/passes/partial_rebuild.h"
 #include "grove/build/passes/refit.h"
 #include "grove/build/passes/rotation.h"
 #include "grove/build/passes/subtree_costs.h"
-#include "grove/registry/hierarchy_statistics.h"
 #include "grove/registry/structure_accelerator.h"
 #include "grove/registry/update.h"
 #include "grove/traverse/traceable_hierarchy.h"
@@ -25,6 +25,12 @@ template <typename H>
 concept Refittable = requires(H& hierarchy, Box4 (*leaf_bounds)(std::uint32_t, std::uint32_t)) {
   refit(hierarchy, leaf_bounds);
 };
+
+/// The surface-area cost of a hierarchy: as remembered, or counted. O(nodes).
+template <typename Hierarchy, Geometry G>
+[[nodiscard]] double expected_cost_of(const StructureState<TraceableHierarchy<Hierarchy, G>>& state) {
+  return state.expected_cost ? *state.expected_cost : expected_cost(state.structure.bvh, CostModel{});
+}
 
 /// Updates one structure, and remembers what that takes. `Rebuild` is called as rebuild(geometry) and returns a StructureState.
 template <typename Hierarchy, Geometry G, typename Rebuild>
@@ -51,11 +57,10 @@ class HierarchyUpdater {
       is_known_ = false;
       report.method = UpdateMethod::rebuild;
       report.rotations = 0;
-      report.rebuilt_references = state.statistics.references;
-      report.cost = state.statistics.expected_cost;
+      report.rebuilt_references = state.structure.bvh.references.size();
+      report.cost = expected_cost_of(state);
     }
-    state.statistics.expected_cost = report.cost;
-    state.statistics.depth = state.structure.bvh.depth;
+    state.expected_cost = report.cost;
     state.bounds = state.structure.bvh.bounds;
     report.seconds = timer.seconds();
     return report;
@@ -66,7 +71,7 @@ class HierarchyUpdater {
   double remember(const State& state, const G& geometry) {
     if (is_known_) return built_cost_;
     const Hierarchy& bvh = state.structure.bvh;
-    built_cost_ = state.statistics.expected_cost;
+    built_cost_ = expected_cost_of(state);
     std::vector<bool> is_referenced(geometry.size(), false);
     for (const std::uint32_t reference : bvh.references) is_referenced[reference] = true;
     left_out_.clear();
@@ -143,12 +148,6 @@ class HierarchyUpdater {
       if (spliced.old_number[i] != SplicedHierarchy::kNewNode) built[i] = built_[spliced.old_number[i]];
     built_ = std::move(built);
     structure = TraceableHierarchy<Hierarchy, G>(std::move(spliced.bvh), geometry);
-    const double build_seconds = state.statistics.build_seconds;
-    const std::uint64_t primitives = state.statistics.primitives;
-    state.statistics = count_nodes(structure.bvh);
-    state.statistics.bytes = structure.memory();
-    state.statistics.build_seconds = build_seconds;
-    state.statistics.primitives = primitives;
     report.method = UpdateMethod::partial_rebuild;
     report.cost = now.total;
   }
