@@ -12,7 +12,8 @@ namespace grove {
 namespace {
 
 constexpr std::size_t kGrain = 16384;
-constexpr int kCoarseBits = 14;  // per axis
+// Per axis. Coarse codes take three passes of sorting, fine ones six.
+constexpr int kCoarseBits = 12;
 constexpr int kFineBits = 21;
 
 // Codes of centres in a grid of 2^bits cells a side over a cube around all of them.
@@ -38,12 +39,15 @@ class Grid {
   std::int32_t most_;
 };
 
-// Whether more than one in 16 of sorted codes equals the one before it.
+// So many primitives may share a code: they are a leaf or two. The two triangles of a quadrilateral often have the same centre, whatever the grid.
+constexpr std::size_t kShared = 4;
+
+// Whether more than one in 16 of sorted codes is shared by more than kShared.
 template <typename CodeOf>
 bool are_crowded(std::size_t size, const CodeOf& code_of) {
   std::vector<std::size_t> equal((size + kGrain - 1) / kGrain, 0);
   parallel_chunks(size, kGrain, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-    for (std::size_t i = std::max<std::size_t>(first, 1); i < last; ++i) equal[chunk] += code_of(i) == code_of(i - 1) ? 1 : 0;
+    for (std::size_t i = std::max(first, kShared); i < last; ++i) equal[chunk] += code_of(i) == code_of(i - kShared) ? 1 : 0;
   });
   std::size_t total = 0;
   for (const std::size_t count : equal) total += count;

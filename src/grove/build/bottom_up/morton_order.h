@@ -14,8 +14,8 @@ struct MortonOrder {
   HugeVector<std::uint64_t> codes;
 };
 
-/// Sorts references along the Morton curve over a cube around all centres. Codes have 42 bits, or fewer beyond
-/// 4 M references; where more than one in 16 then equals its neighbour, the full 63. O(n), parallel, deterministic.
+/// Sorts references along the Morton curve over a cube around all centres. Codes have 36 bits; where more than
+/// one in 16 references then shares its code with four others, the full 63. O(n), parallel, deterministic.
 [[nodiscard]] MortonOrder sort_by_morton_code(const ReferenceList& list);
 
 }  // namespace grove

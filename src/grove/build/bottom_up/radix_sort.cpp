@@ -9,7 +9,7 @@
 namespace grove {
 namespace {
 
-constexpr int kDigitBits = 11;
+constexpr int kDigitBits = 12;
 constexpr std::size_t kDigitCount = std::size_t{1} << kDigitBits;
 constexpr std::size_t kChunk = 65536;
 
