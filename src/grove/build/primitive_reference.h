@@ -17,12 +17,8 @@ struct PrimitiveReference {
   Float4 lower;  ///< lane 3: the bits of the primitive id
   Float4 upper;
 
-  [[nodiscard]] std::uint32_t primitive() const { return std::bit_cast<std::uint32_t>(static_cast<float>(lower[3])); }
-  /// The bounds, with the id's lane cleared: as a float it may be denormal, and arithmetic on denormals is slow.
-  [[nodiscard]] Box4 box() const {
-    constexpr Int4 kKeepCoordinates = {-1, -1, -1, 0};
-    return {reinterpret_cast<Float4>(reinterpret_cast<Int4>(lower) & kKeepCoordinates), upper};
-  }
+  [[nodiscard]] std::uint32_t primitive() const { return last_lane_bits(lower); }
+  [[nodiscard]] Box4 box() const { return {without_last_lane(lower), upper}; }
   /// Twice the centre of the box.
   [[nodiscard]] Float4 doubled_centre() const {
     const Box4 bounds = box();

@@ -61,12 +61,44 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
   return v;
 }
 
+/// Unaligned.
+inline void store4(Float4 v, float* p) {
+  std::memcpy(p, &v, sizeof v);
+}
+
+/// Rows become columns.
+inline void transpose(Float4 row[4]) {
+  const Float4 a = __builtin_shufflevector(row[0], row[1], 0, 4, 1, 5);
+  const Float4 b = __builtin_shufflevector(row[2], row[3], 0, 4, 1, 5);
+  const Float4 c = __builtin_shufflevector(row[0], row[1], 2, 6, 3, 7);
+  const Float4 d = __builtin_shufflevector(row[2], row[3], 2, 6, 3, 7);
+  row[0] = __builtin_shufflevector(a, b, 0, 1, 4, 5);
+  row[1] = __builtin_shufflevector(a, b, 2, 3, 6, 7);
+  row[2] = __builtin_shufflevector(c, d, 0, 1, 4, 5);
+  row[3] = __builtin_shufflevector(c, d, 2, 3, 6, 7);
+}
+
 /// Lanes x, y, z; the last lane is 0.
 [[nodiscard]] inline Float4 to_float4(const Vec3& v) {
   return Float4{v.x, v.y, v.z, 0.0F};
 }
 [[nodiscard]] inline Vec3 to_vec3(Float4 v) {
   return {v[0], v[1], v[2]};
+}
+
+/// The last lane, which boxes and points leave free, as the bits of a number.
+[[nodiscard]] inline std::uint32_t last_lane_bits(Float4 v) {
+  return std::bit_cast<std::uint32_t>(static_cast<float>(v[3]));
+}
+[[nodiscard]] inline Float4 with_last_lane_bits(Float4 v, std::uint32_t bits) {
+  Int4 lanes = reinterpret_cast<Int4>(v);
+  lanes[3] = static_cast<std::int32_t>(bits);
+  return reinterpret_cast<Float4>(lanes);
+}
+/// Clears the last lane: the bits of a number may be a denormal float, and arithmetic on denormals is slow.
+[[nodiscard]] inline Float4 without_last_lane(Float4 v) {
+  constexpr Int4 kKeepCoordinates = {-1, -1, -1, 0};
+  return reinterpret_cast<Float4>(reinterpret_cast<Int4>(v) & kKeepCoordinates);
 }
 
 /// A box in two registers. The last lanes are free for other use: they take part in nothing.

@@ -36,8 +36,8 @@ template <Geometry G>
     BottomUpSettings settings;
     settings.leaf_size = options.leaves_are_decided_later() ? 1 : options.leaf_size;
     settings.radius = options.radius;
-    const ReferenceList list = list_references(geometry);
-    return options.split == "lbvh" ? build_lbvh(list, settings) : build_ploc(list, settings);
+    ReferenceList list = list_references(geometry);
+    return options.split == "lbvh" ? build_lbvh(list, settings) : build_ploc(std::move(list), settings);
   }
   TopDownSettings settings = top_down_settings(options);
   if (options.leaves_are_decided_later()) settings.leaf_size = 1;

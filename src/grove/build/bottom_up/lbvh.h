@@ -5,7 +5,8 @@
 // cost on the way back up, unlike in the paper.
 
 #include "grove/accel/bvh2.h"
-#include "grove/build/bottom_up/emit.h"
+#include "grove/build/bottom_up/bottom_up_settings.h"
+#include "grove/build/primitive_reference.h"
 
 namespace grove {
 

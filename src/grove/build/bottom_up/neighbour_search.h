@@ -23,16 +23,16 @@ class NeighbourSearch {
   void run(std::size_t radius);
 
   /// The nearest box of box i, counted within the stretch. True for boxes whose neighbours all lie in the stretch.
-  [[nodiscard]] std::size_t nearest(std::size_t i) const;
+  [[nodiscard]] std::size_t nearest(std::size_t i) const { return i + static_cast<std::size_t>(static_cast<std::ptrdiff_t>(steps_[i])); }
 
   static constexpr std::size_t kMostRadius = 64;
 
  private:
   std::size_t count_;
   std::size_t first_place_;
-  std::vector<float> bounds_[6];  // scaled
-  std::vector<float> best_;       // area and partner of each box
-  std::int32_t partner_mask_ = 0;
+  std::vector<float> bounds_[6];     // scaled
+  std::vector<float> best_;          // area and partner of each box
+  std::vector<std::int32_t> steps_;  // from each box to its partner
 };
 
 }  // namespace grove

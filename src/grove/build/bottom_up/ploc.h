@@ -12,11 +12,12 @@
 // depth and time for any input.
 
 #include "grove/accel/bvh2.h"
-#include "grove/build/bottom_up/emit.h"
+#include "grove/build/bottom_up/bottom_up_settings.h"
+#include "grove/build/primitive_reference.h"
 
 namespace grove {
 
 /// O(radius n) time for each of at most 32 rounds, in practice about 2.5 radius n in all, and O(n log^2 n) for what they leave; the same for any number of threads.
-[[nodiscard]] Bvh2 build_ploc(const ReferenceList& list, const BottomUpSettings& settings);
+[[nodiscard]] Bvh2 build_ploc(ReferenceList list, const BottomUpSettings& settings);
 
 }  // namespace grove

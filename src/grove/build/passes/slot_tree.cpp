@@ -119,9 +119,7 @@ class Emitter {
 }  // namespace
 
 Box4 SlotTree::Slot::box() const {
-  constexpr Int4 kKeepCoordinates = {-1, -1, -1, 0};
-  return {reinterpret_cast<Float4>(reinterpret_cast<Int4>(lower) & kKeepCoordinates),
-          reinterpret_cast<Float4>(reinterpret_cast<Int4>(upper) & kKeepCoordinates)};
+  return {without_last_lane(lower), without_last_lane(upper)};
 }
 
 Bvh2Node::Child SlotTree::Slot::link() const {
