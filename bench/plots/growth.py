@@ -19,7 +19,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
 LEAST = 10_000
-SPECS = "bvh;bvh:split=sweep;bvh:split=object-median;bvh:split=lbvh;bvh:split=ploc;bvh:optimize=reinsertion"
+SPECS = "bvh;bvh:split=sweep;bvh:split=object-median;bvh:split=lbvh;bvh:split=ploc"
 
 
 def sizes_up_to(most):

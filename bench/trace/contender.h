@@ -10,7 +10,7 @@
 
 namespace grove::bench {
 
-/// Something that builds a structure over a mesh and traces rays at it, one call a ray.
+/// Something that builds a structure over a mesh and traces rays at it.
 class Contender {
  public:
   virtual ~Contender() = default;
@@ -25,12 +25,24 @@ class Contender {
   virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results) const = 0;
 };
 
-[[nodiscard]] std::unique_ptr<Contender> make_grove(std::shared_ptr<const TriangleMesh> mesh, std::string spec);
+/// How many rays a contender gets in one call.
+enum class Calls { one_ray, all_rays };
+
+[[nodiscard]] std::unique_ptr<Contender> make_grove(std::shared_ptr<const TriangleMesh> mesh, std::string spec,
+                                                    Calls calls = Calls::one_ray);
+
 /// The qualities that Embree builds in: along a Morton curve, by binned splits, with spatial splits.
 enum class EmbreeQuality { low, medium, high };
 
-/// Embree 3 with the robust flag.
-[[nodiscard]] std::unique_ptr<Contender> make_embree(std::shared_ptr<const TriangleMesh> mesh,
-                                                     EmbreeQuality quality = EmbreeQuality::medium);
+struct EmbreeSettings {
+  EmbreeQuality quality = EmbreeQuality::medium;
+  /// The flag for watertight tests. It rules out splitting triangles, which makes high quality what it is.
+  bool robust = true;
+  /// As Embree's device configuration names it ("avx2"); empty for its own choice.
+  std::string isa;
+};
+
+/// Embree 3, one ray a call.
+[[nodiscard]] std::unique_ptr<Contender> make_embree(std::shared_ptr<const TriangleMesh> mesh, EmbreeSettings settings = {});
 
 }  // namespace grove::bench

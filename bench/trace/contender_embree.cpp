@@ -12,25 +12,29 @@ namespace {
 
 class Embree final : public Contender {
  public:
-  Embree(std::shared_ptr<const TriangleMesh> mesh, EmbreeQuality quality) : mesh_(std::move(mesh)), quality_(quality) {}
+  Embree(std::shared_ptr<const TriangleMesh> mesh, EmbreeSettings settings) : mesh_(std::move(mesh)), settings_(std::move(settings)) {}
   ~Embree() override { release(); }
   Embree(const Embree&) = delete;
   Embree& operator=(const Embree&) = delete;
 
   [[nodiscard]] std::string name() const override {
-    return quality_ == EmbreeQuality::low ? "embree low" : quality_ == EmbreeQuality::medium ? "embree medium" : "embree high";
+    constexpr const char* kNames[] = {"embree low", "embree medium", "embree high"};
+    std::string name = kNames[static_cast<int>(settings_.quality)];
+    if (settings_.robust) name += " robust";
+    return settings_.isa.empty() ? name : name + " " + settings_.isa;
   }
 
   double build(int threads) override {
     release();
-    device_ = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+    std::string configuration = "threads=" + std::to_string(threads);
+    if (!settings_.isa.empty()) configuration += ",isa=" + settings_.isa;
+    device_ = rtcNewDevice(configuration.c_str());
     if (device_ == nullptr) throw Error("Embree gave no device");
     const Timer timer;
     scene_ = rtcNewScene(device_);
     const RTCBuildQuality qualities[] = {RTC_BUILD_QUALITY_LOW, RTC_BUILD_QUALITY_MEDIUM, RTC_BUILD_QUALITY_HIGH};
-    const RTCBuildQuality quality = qualities[static_cast<int>(quality_)];
-    // High quality splits triangles, which the robust flag rules out.
-    rtcSetSceneFlags(scene_, quality_ == EmbreeQuality::high ? RTC_SCENE_FLAG_NONE : RTC_SCENE_FLAG_ROBUST);
+    const RTCBuildQuality quality = qualities[static_cast<int>(settings_.quality)];
+    rtcSetSceneFlags(scene_, settings_.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     rtcSetSceneBuildQuality(scene_, quality);
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     const auto vertices = mesh_->vertices();
@@ -103,15 +107,15 @@ class Embree final : public Contender {
   }
 
   std::shared_ptr<const TriangleMesh> mesh_;
-  EmbreeQuality quality_;
+  EmbreeSettings settings_;
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
 };
 
 }  // namespace
 
-std::unique_ptr<Contender> make_embree(std::shared_ptr<const TriangleMesh> mesh, EmbreeQuality quality) {
-  return std::make_unique<Embree>(std::move(mesh), quality);
+std::unique_ptr<Contender> make_embree(std::shared_ptr<const TriangleMesh> mesh, EmbreeSettings settings) {
+  return std::make_unique<Embree>(std::move(mesh), std::move(settings));
 }
 
 }  // namespace grove::bench

@@ -28,6 +28,10 @@ namespace {
 struct Options {
   std::vector<std::string> scenes;
   std::string structure = "bvh";
+  bool in_batches = false;
+  std::string embree_quality = "medium";
+  bool embree_is_robust = true;
+  std::string embree_isa;
   std::size_t agreement_rays = 1'000'000;
   std::size_t timed_rays = 300'000;
   int rounds = 5;
@@ -60,10 +64,12 @@ nlohmann::json run_scene(const std::string& source, const Options& options, bool
   const Scene loaded = load_scene(source);
   const auto mesh = world_mesh(loaded);
   const Scene scene = scene_of(loaded, mesh);
-  const auto grove = make_grove(mesh, options.structure);
-  const auto embree = make_embree(mesh);
+  const auto grove = make_grove(mesh, options.structure, options.in_batches ? Calls::all_rays : Calls::one_ray);
+  const EmbreeQuality quality = options.embree_quality == "high" ? EmbreeQuality::high : EmbreeQuality::medium;
+  const auto embree = make_embree(mesh, {quality, options.embree_is_robust, options.embree_isa});
   const int all_threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  fmt::print("\n{}: {} triangles\n", source, mesh->size());
+  fmt::print("\n{}: {} triangles; {}{} beside {}\n", source, mesh->size(), grove->name(), options.in_batches ? " in one batch" : "",
+             embree->name());
   nlohmann::json row{{"scene", source}, {"triangles", mesh->size()}};
 
   const SceneAccelerator accelerator(scene, options.structure);
@@ -133,7 +139,7 @@ nlohmann::json run_scene(const std::string& source, const Options& options, bool
       embree_rate.push_back(million / embree_seconds);
       ratio.push_back(embree_seconds / grove_seconds);
     }
-    fmt::print("  {:8} Mrays/s, one thread, single rays: Grove {}, Embree {}; ratio {}\n", name_of(kind), text(spread_of(grove_rate)),
+    fmt::print("  {:8} Mrays/s, one thread: Grove {}, Embree {}; ratio {}\n", name_of(kind), text(spread_of(grove_rate)),
                text(spread_of(embree_rate)), text(spread_of(ratio)));
     row["trace"][std::string(name_of(kind))] = {{"grove_mrays_per_s", json(spread_of(grove_rate))},
                                                 {"embree_mrays_per_s", json(spread_of(embree_rate))},
@@ -144,9 +150,13 @@ nlohmann::json run_scene(const std::string& source, const Options& options, bool
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app{"Grove beside Embree (medium quality, robust) on the same triangles and rays."};
+  CLI::App app{"Grove beside Embree on the same triangles and rays."};
   app.add_option("scenes", options.scenes, "files or built-in scenes; by default three built-in ones of a million triangles");
   app.add_option("--structure", options.structure, "what to set against Embree");
+  app.add_flag("--batch", options.in_batches, "give the structure all rays in one call; the rival gets one ray a call");
+  app.add_option("--embree-quality", options.embree_quality, "medium or high")->check(CLI::IsMember({"medium", "high"}));
+  app.add_flag("--embree-robust,!--no-embree-robust", options.embree_is_robust, "with Embree's flag for watertight tests (default)");
+  app.add_option("--embree-isa", options.embree_isa, "the instruction set for Embree, such as avx2 (default: its own choice)");
   app.add_option("--agreement-rays", options.agreement_rays, "random rays whose hits are compared")->check(CLI::Range(1, 100'000'000));
   app.add_option("--rays", options.timed_rays, "rays a round")->check(CLI::Range(1, 100'000'000));
   app.add_option("--rounds", options.rounds, "rounds")->check(CLI::Range(1, 1000));

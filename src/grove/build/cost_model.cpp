@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "grove/accel/bvh2.h"
+#include "grove/accel/fast_bvh.h"
 #include "grove/accel/volume_bvh.h"
 #include "grove/accel/wide_bvh.h"
 
@@ -46,6 +47,10 @@ double expected_cost(const Bvh2& bvh, const CostModel& model) {
 
 template <int kWidth>
 double expected_cost(const WideBvh<kWidth>& bvh, const CostModel& model) {
+  return cost_of(bvh, model);
+}
+
+double expected_cost(const FastBvh& bvh, const CostModel& model) {
   return cost_of(bvh, model);
 }
 

@@ -12,11 +12,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Half a unit in the last place of 1: the relative error of one float operation.
-constexpr double kUnitRoundoff = 0x1p-24;
-// How far the plane's distance may be from the point that the edge tests found, relative to the largest coordinate: as much again as
-// the rounding of the shear. The traversals widen their boxes by the sum of both and more.
-constexpr double kDepthTolerance = 6.0 * kUnitRoundoff;
-
 using DVec3 = glm::dvec3;
 
 // The edge functions of a triangle whose sheared corners are given, as weights of the corners.
@@ -96,7 +91,7 @@ float watertight::hit_distance(const WatertightRay& ray, const TriangleCorners& 
   // functions of float corners are exact but for their last rounding.
   const DVec3 edges = edge_weights(to_double(sheared.x), to_double(sheared.y));
   const double edge_depth = glm::dot(edges, to_double(sheared.z)) / (edges.x + edges.y + edges.z);
-  const double tolerance = kDepthTolerance * largest_coordinate(p0, p1, p2);
+  const double tolerance = watertight::kDepthTolerance * largest_coordinate(p0, p1, p2);
   if (std::fabs(plane_depth - edge_depth) <= tolerance) return static_cast<float>(plane_depth / forward);
 
   // Almost edge-on: the rounding of the shear, sideways, has become a long way along the plane.

@@ -26,6 +26,17 @@ namespace grove {
 /// A ray with the set-up that all its triangle tests share. The ray must be traceable.
 struct WatertightRay {
   explicit WatertightRay(const Ray& r);
+  /// With what the other constructor would work out.
+  WatertightRay(const Ray& r, int x_axis, int y_axis, int z_axis, float x_shear, float y_shear)
+      : ray(r),
+        kx(x_axis),
+        ky(y_axis),
+        kz(z_axis),
+        origin_x(splat(r.origin[x_axis])),
+        origin_y(splat(r.origin[y_axis])),
+        origin_z(splat(r.origin[z_axis])),
+        shear_x(splat(x_shear)),
+        shear_y(splat(y_shear)) {}
 
   Ray ray;
   int kx = 0, ky = 1, kz = 2;  ///< kz: the axis along which the ray moves most; kx, ky keep the winding
@@ -49,6 +60,10 @@ struct TriangleCorners {
 static_assert(sizeof(TriangleCorners) == 36);
 
 namespace watertight {
+
+/// How far the plane's distance may be from the point that the edge tests found, relative to the largest coordinate: as much again as the
+/// rounding of the shear. The traversals widen their boxes by the sum of both and more.
+inline constexpr double kDepthTolerance = 6.0 * 0x1p-24;
 
 /// The edge functions, with signs turned so that a hit has them all >= 0 and their sum > 0. The weights of v0, v1, v2 in that order.
 struct Edges {

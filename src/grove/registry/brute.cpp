@@ -50,9 +50,8 @@ template <Geometry G>
 std::unique_ptr<Accelerator> build_over(std::string spec, std::shared_ptr<const G> geometry) {
   const auto visit = [](const Brute&, const std::function<void(const NodeView&)>&) {};
   const auto measure = [](const Brute&, const G&) { return StructureQuality{}; };
-  StructureState<Brute> state = look_at(*geometry);
-  return std::make_unique<StructureAccelerator<Brute, G>>(std::move(state), std::move(geometry), std::move(spec), count<G>, visit, measure,
-                                                          update<G>);
+  const StructureState<Brute> state = look_at(*geometry);
+  return std::make_unique<StructureAccelerator<Brute, G>>(state, std::move(geometry), std::move(spec), count<G>, visit, measure, update<G>);
 }
 
 }  // namespace

@@ -20,4 +20,7 @@ struct RegistryRow {
 [[nodiscard]] StructureFamily describe_bvh();
 [[nodiscard]] std::unique_ptr<Accelerator> build_bvh(const Spec& spec, const GeometryPointer& geometry);
 
+[[nodiscard]] StructureFamily describe_fast();
+[[nodiscard]] std::unique_ptr<Accelerator> build_fast(const Spec& spec, const GeometryPointer& geometry);
+
 }  // namespace grove

@@ -12,7 +12,10 @@ template <typename Hierarchy>
 [[nodiscard]] StructureStatistics count_nodes(const Hierarchy& hierarchy) {
   constexpr std::size_t kHistogramSize = 33;
   StructureStatistics statistics;
-  statistics.references = hierarchy.references.size();
+  if constexpr (requires { hierarchy.references.size(); })
+    statistics.references = hierarchy.references.size();
+  else
+    statistics.references = hierarchy.references;
   statistics.depth = hierarchy.depth;
   statistics.leaf_sizes.resize(kHistogramSize);
   statistics.depths.resize(hierarchy.depth + 1);

@@ -13,6 +13,7 @@ namespace {
 constexpr RegistryRow kRows[] = {
     {describe_brute, build_brute},
     {describe_bvh, build_bvh},
+    {describe_fast, build_fast},
 };
 
 constexpr std::string_view kRepresentativeSpecs[] = {
@@ -31,6 +32,9 @@ constexpr std::string_view kRepresentativeSpecs[] = {
     "bvh:arity=8,widen=greedy",
     "bvh:optimize=reinsertion",
     "bvh:split=spatial,optimize=reinsertion",
+    "fast",
+    "fast:quality=low",
+    "fast:quality=high",
 };
 
 }  // namespace

@@ -21,6 +21,14 @@ struct StructureState {
   std::optional<double> expected_cost;  ///< where it is known without being counted
 };
 
+/// A structure whose rays are traced together: what a batch allows is used.
+template <typename Structure, typename G>
+concept TracesBatches = requires(const Structure& structure, const G& geometry, std::span<const Ray> rays, std::span<Hit> hits,
+                                 std::span<std::uint8_t> results, std::span<TraversalCounts> counts) {
+  trace_closest(structure, geometry, rays, hits, counts);
+  trace_any(structure, geometry, rays, results, counts);
+};
+
 /// The bridge from a structure and a geometry, both known at compile time, to Accelerator. `Structure` is plain data for which the
 /// functions trace_closest(structure, geometry, ray, hit, counter) and trace_any(…) exist (rooms accel and traverse); how it is counted, drawn,
 /// judged and made to follow its geometry is passed in, since only the registry's row knows.
@@ -78,6 +86,12 @@ class StructureAccelerator final : public Accelerator {
 
   void intersect(std::span<const Ray> rays, std::span<Hit> hits, std::span<TraversalCounts> counts) const override {
     GROVE_CHECK(rays.size() == hits.size() && (counts.empty() || counts.size() == rays.size()));
+    if constexpr (TracesBatches<Structure, G>) {
+      trace_closest(state_.structure, *geometry_, rays, hits, counts);
+      for (Hit& hit : hits)
+        if (hit) geometry_->locate(hit);
+      return;
+    }
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (counts.empty()) {
         hits[i] = closest(rays[i], NoCounter{});
@@ -90,6 +104,10 @@ class StructureAccelerator final : public Accelerator {
 
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> results, std::span<TraversalCounts> counts) const override {
     GROVE_CHECK(rays.size() == results.size() && (counts.empty() || counts.size() == rays.size()));
+    if constexpr (TracesBatches<Structure, G>) {
+      trace_any(state_.structure, *geometry_, rays, results, counts);
+      return;
+    }
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (counts.empty()) {
         results[i] = any(rays[i], NoCounter{}) ? 1 : 0;

@@ -28,8 +28,10 @@ class WideSlabs {
     }
   }
 
-  /// Writes the entry distances of all places; bit i of the result is set where child i is met within [t_min, t_max].
-  [[nodiscard, gnu::always_inline]] unsigned test(const WideNode<kWidth>& node, Float4 t_min, Float4 t_max, float* entry) const {
+  /// Writes the entry distances of all places; bit i of the result is set where child i is met within [t_min, t_max]. The node has
+  /// `planes` as WideNode has.
+  template <typename Node>
+  [[nodiscard, gnu::always_inline]] unsigned test(const Node& node, Float4 t_min, Float4 t_max, float* entry) const {
     unsigned met = 0;
     for (int group = 0; group < kWidth / 4; ++group) {
       // min and max keep the second operand where the first is NaN: a ray inside a plane is not limited by it.

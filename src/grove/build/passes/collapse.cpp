@@ -107,7 +107,7 @@ void CollapsePlan::plan_range(std::uint32_t first, std::uint32_t last) {
 
 float CollapsePlan::forest_cost(std::uint32_t slot, int roots) const {
   const Bvh2Node::Child& child = bvh_.nodes[slot / 2].child[slot % 2];
-  if (child.count > 0) return slot_areas_[slot] * static_cast<float>(settings_.cost.intersection) * static_cast<float>(child.count);
+  if (child.count > 0) return slot_areas_[slot] * settings_.leaf_time(child.count);
   return forests_[child.first].cost[roots - 1];
 }
 
@@ -137,9 +137,8 @@ void CollapsePlan::plan_node(std::uint32_t node) {
   };
   std::uint8_t choice = 1;
   const float interior = areas_[node] * static_cast<float>(settings_.cost.traversal) + distribute(arity, choice);
-  const float leaf = ranges_[node].count <= settings_.leaf_size
-                         ? areas_[node] * static_cast<float>(settings_.cost.intersection) * static_cast<float>(ranges_[node].count)
-                         : std::numeric_limits<float>::infinity();
+  const float leaf = ranges_[node].count <= settings_.leaf_size ? areas_[node] * settings_.leaf_time(ranges_[node].count)
+                                                                : std::numeric_limits<float>::infinity();
   const bool is_leaf = leaf <= interior;
   forests.choice[0] = is_leaf ? 0 : choice;
   forests.cost[0] = is_leaf ? leaf : interior;
@@ -200,13 +199,13 @@ bool CollapsePlan::is_leaf(std::uint32_t node) const {
   const int count = open_greedily(node, slots);
   float split = areas_[node] * static_cast<float>(settings_.cost.traversal);
   for (int i = 0; i < count; ++i) split += subset_cost(slots[i]);
-  return areas_[node] * static_cast<float>(settings_.cost.intersection) * static_cast<float>(ranges_[node].count) <= split;
+  return areas_[node] * settings_.leaf_time(ranges_[node].count) <= split;
 }
 
 float CollapsePlan::subset_cost(std::uint32_t slot) const {
   const Bvh2Node::Child& link = bvh_.nodes[slot / 2].child[slot % 2];
   const std::uint32_t count = link.count > 0 ? link.count : ranges_[link.first].count;
-  return slot_areas_[slot] * static_cast<float>(settings_.cost.intersection) * static_cast<float>(count);
+  return slot_areas_[slot] * settings_.leaf_time(count);
 }
 
 int CollapsePlan::open_greedily(std::uint32_t node, std::uint32_t* slots) const {

@@ -1,0 +1,90 @@
+#include "grove/accel/fast_bvh.h"
+
+#include <algorithm>
+
+namespace grove {
+namespace {
+
+bool is_permutation(std::uint32_t order) {
+  unsigned seen = 0;
+  for (int k = 0; k < FastNode::kWidth; ++k) seen |= 1U << (order >> (3 * k) & 7U);
+  return seen == 0xffU;
+}
+
+class Validation {
+ public:
+  Validation(const FastBvh& bvh, std::size_t primitive_count)
+      : bvh_(bvh),
+        primitive_count_(primitive_count),
+        node_is_reached_(bvh.nodes.size(), false),
+        block_is_reached_(bvh.blocks.size(), false) {}
+
+  std::string run() {
+    if (bvh_.nodes.empty()) return bvh_.blocks.empty() && bvh_.references == 0 ? "" : "triangles without a root";
+    check_node(0, bvh_.bounds, 0);
+    if (error_.empty() && std::find(node_is_reached_.begin(), node_is_reached_.end(), false) != node_is_reached_.end())
+      error_ = "a node is not reached";
+    if (error_.empty() && std::find(block_is_reached_.begin(), block_is_reached_.end(), false) != block_is_reached_.end())
+      error_ = "a block is not reached";
+    if (error_.empty() && depth_ != bvh_.depth) error_ = "depth is " + std::to_string(depth_) + ", not " + std::to_string(bvh_.depth);
+    if (error_.empty() && references_ != bvh_.references) error_ = "references are " + std::to_string(references_);
+    return error_;
+  }
+
+ private:
+  void check_node(std::uint32_t number, const Box& box, std::uint32_t depth) {
+    if (number >= bvh_.nodes.size() || node_is_reached_[number]) return fail("node", number, "is not there, or reached twice");
+    node_is_reached_[number] = true;
+    const FastNode& node = bvh_.nodes[number];
+    for (const std::uint32_t order : node.order)
+      if (!is_permutation(order)) return fail("node", number, "has an order that is none");
+    for (int i = 0; i < FastNode::kWidth && error_.empty(); ++i) {
+      if (!node.has_child(i)) continue;
+      const FastChild child = node.child[i];
+      if (!box.contains(node.child_box(i))) return fail("node", number, "has a child outside of it");
+      if (child.is_leaf()) {
+        check_block(child, node.child_box(i), depth + 1);
+      } else if (child.node() <= number) {
+        fail("node", number, "has a child before it");
+      } else {
+        check_node(child.node(), node.child_box(i), depth + 1);
+      }
+    }
+  }
+
+  void check_block(FastChild leaf, const Box& box, std::uint32_t depth) {
+    depth_ = std::max(depth_, depth);
+    if (leaf.block() >= bvh_.blocks.size() || block_is_reached_[leaf.block()])
+      return fail("block", leaf.block(), "is not there, or reached twice");
+    block_is_reached_[leaf.block()] = true;
+    references_ += leaf.count();
+    const TriangleBlock& block = bvh_.blocks[leaf.block()];
+    for (std::uint32_t place = 0; place < leaf.count(); ++place) {
+      if (block.primitive[place] >= primitive_count_) return fail("block", leaf.block(), "names a primitive that is not there");
+      Box triangle;
+      for (int corner = 0; corner < 3; ++corner)
+        triangle.grow(Vec3(block.corners[0][corner][place], block.corners[1][corner][place], block.corners[2][corner][place]));
+      if (box.intersection(triangle).is_empty()) return fail("block", leaf.block(), "has a triangle outside of its box");
+    }
+  }
+
+  void fail(const char* what, std::uint32_t number, const char* how) {
+    if (error_.empty()) error_ = std::string(what) + " " + std::to_string(number) + " " + how;
+  }
+
+  const FastBvh& bvh_;
+  std::size_t primitive_count_;
+  std::vector<bool> node_is_reached_;
+  std::vector<bool> block_is_reached_;
+  std::uint32_t depth_ = 0;
+  std::uint32_t references_ = 0;
+  std::string error_;
+};
+
+}  // namespace
+
+std::string FastBvh::validate(std::size_t primitive_count) const {
+  return Validation(*this, primitive_count).run();
+}
+
+}  // namespace grove

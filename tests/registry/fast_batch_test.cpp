@@ -1,0 +1,96 @@
+// The batch kernels of the fast path on every instruction set that the machine has: hits of any batch are those of brute force, bit for bit.
+
+#include "grove/traverse/simd/fast_batch.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "grove/base/error.h"
+#include "grove/base/random.h"
+#include "registry/matrix_geometry.h"
+#include "registry/matrix_rays.h"
+#include "registry/matrix_specs.h"
+
+namespace grove::test {
+namespace {
+
+class FastBatch : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { force_batch_target(GetParam()); }
+  void TearDown() override { force_batch_target(""); }
+};
+
+// What is scaled up or down has the same hits at other distances, and does not go through the kernel.
+std::vector<Ray> with_long_and_short_directions(std::vector<Ray> rays) {
+  const std::size_t count = rays.size();
+  for (std::size_t i = 0; i < count; i += 3) {
+    Ray scaled = rays[i];
+    scaled.direction *= i % 2 == 0 ? 1e-12F : 1e12F;
+    scaled.t_max = std::numeric_limits<float>::infinity();
+    scaled.t_min = 0.0F;
+    rays.push_back(scaled);
+  }
+  // Neighbours in a batch are of different kinds.
+  Random random(3);
+  for (std::size_t i = rays.size(); i > 1; --i) std::swap(rays[i - 1], rays[random.next_u32(static_cast<std::uint32_t>(i))]);
+  return rays;
+}
+
+TEST_P(FastBatch, FindsWhatBruteForceFinds) {
+  for (const NamedGeometry& named : matrix_geometries()) {
+    if (!std::holds_alternative<std::shared_ptr<const TriangleMesh>>(named.geometry)) continue;
+    const auto oracle = build(named.geometry, "brute");
+    const auto structure = build(named.geometry, "fast");
+    const std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(named.geometry, 40, 9));
+    std::vector<Hit> expected(rays.size());
+    oracle->intersect(rays, expected, {});
+    for (const std::size_t batch : {std::size_t{1}, std::size_t{5}, std::size_t{49}, rays.size()}) {
+      std::vector<Hit> hits(rays.size());
+      std::vector<std::uint8_t> results(rays.size(), 7);
+      for (std::size_t first = 0; first < rays.size(); first += batch) {
+        const std::size_t count = std::min(batch, rays.size() - first);
+        structure->intersect({rays.data() + first, count}, {hits.data() + first, count}, {});
+        structure->occluded({rays.data() + first, count}, {results.data() + first, count}, {});
+      }
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_TRUE(same_bits(hits[i], expected[i]))
+            << named.name << ", batches of " << batch << ", ray " << i << ": t " << hits[i].t << " and " << expected[i].t << ", primitives "
+            << hits[i].primitive << " and " << expected[i].primitive;
+        ASSERT_EQ(results[i], expected[i] ? 1 : 0) << named.name << ", batches of " << batch << ", ray " << i;
+      }
+    }
+  }
+}
+
+TEST_P(FastBatch, CountsTheSameInAnyBatch) {
+  const GeometryPointer geometry = std::make_shared<const TriangleMesh>(random_triangles(1500, 0.2F, 3));
+  const auto structure = build(geometry, "fast");
+  const std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(geometry, 40, 10));
+  std::vector<Hit> hits(rays.size());
+  std::vector<TraversalCounts> together(rays.size(), TraversalCounts{1, 1, 1, 1});
+  structure->intersect(rays, hits, together);
+  std::uint64_t nodes = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    TraversalCounts alone;
+    structure->intersect({&rays[i], 1}, {&hits[i], 1}, {&alone, 1});
+    EXPECT_EQ(alone, together[i]);
+    nodes += alone.nodes_visited;
+  }
+  EXPECT_GT(nodes, rays.size() / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, FastBatch, testing::ValuesIn(batch_targets()), [](const auto& test) { return test.param; });
+
+TEST(FastBatchTargets, UnknownOnesAreRefusedWithAList) {
+  try {
+    force_batch_target("AVX4711");
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find(batch_targets().front()), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace grove::test
