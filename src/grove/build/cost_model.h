@@ -11,6 +11,7 @@
 namespace grove {
 
 struct Bvh2;
+struct KdTree;
 template <int kWidth>
 struct WideBvh;
 template <BoundingVolume V>
@@ -46,6 +47,9 @@ class AreaMeasure {
 /// The same for a wide hierarchy; `model.traversal` is then the time of a step through a wide node.
 template <int kWidth>
 [[nodiscard]] double expected_cost(const WideBvh<kWidth>& bvh, const CostModel& model);
+
+/// The same for a kd-tree, whose cells take the place of boxes.
+[[nodiscard]] double expected_cost(const KdTree& tree, const CostModel& model);
 
 /// The same by the areas of the hierarchy's own volumes, for a ray that meets the volume of the root.
 template <BoundingVolume V>

@@ -13,6 +13,7 @@ namespace {
 constexpr RegistryRow kRows[] = {
     {describe_brute, build_brute},
     {describe_bvh, build_bvh},
+    {describe_kd_tree, build_kd_tree},
 };
 
 constexpr std::string_view kRepresentativeSpecs[] = {
@@ -31,6 +32,9 @@ constexpr std::string_view kRepresentativeSpecs[] = {
     "bvh:arity=8,widen=greedy",
     "bvh:optimize=reinsertion",
     "bvh:split=spatial,optimize=reinsertion",
+    "kdtree",
+    "kdtree:split=object-median",
+    "kdtree:split=spatial-median",
 };
 
 }  // namespace
