@@ -10,8 +10,9 @@ namespace grove {
 namespace {
 
 KdSplit parse_split(const std::string& name) {
+  if (name == "binned") return KdSplit::binned;
   if (name == "object-median") return KdSplit::object_median;
-  return name == "spatial-median" ? KdSplit::spatial_median : KdSplit::binned;
+  return name == "spatial-median" ? KdSplit::spatial_median : KdSplit::sah;
 }
 
 struct KdTreeOptions {
@@ -72,27 +73,28 @@ std::unique_ptr<Accelerator> build_over(const Spec& spec, std::shared_ptr<const 
 }  // namespace
 
 StructureFamily describe_kd_tree() {
-  return {"kdtree",
-          "kd-tree: planes across the axes, each primitive in every cell that it reaches into",
-          {
-              {"split",
-               {"binned", "object-median", "spatial-median"},
-               0,
-               0,
-               0,
-               "where the plane is: at the least surface-area cost of a few between bins; with equal counts on both sides; "
-               "or in the middle"},
-              {"clip", {"true", "false"}, 0, 0, 0, "whether primitives are clipped to cells, or their boxes are"},
-              {"mailbox",
-               {"true", "false"},
-               0,
-               0,
-               0,
-               "whether a ray remembers what it was tested against, so as not to test it in the next cell again"},
-              {"empty-bonus", {}, 0, 90, 20, "by how many percent a plane is cheaper that cuts off empty space"},
-              {"max-depth", {}, 0, 64, 0, "most planes above a leaf; 0 for 8 + 1.3 log2 of the number of primitives"},
-              {"leaf-size", {}, 1, 64, 1, "sets of at most this many primitives are not parted; the cost decides above it"},
-          }};
+  return {
+      "kdtree",
+      "kd-tree: planes across the axes, each primitive in every cell that it reaches into",
+      {
+          {"split",
+           {"sah", "binned", "object-median", "spatial-median"},
+           0,
+           0,
+           0,
+           "where the plane is: at the least surface-area cost of all planes, or of a few between bins; with equal counts on both sides; "
+           "or in the middle"},
+          {"clip", {"true", "false"}, 0, 0, 0, "whether primitives are clipped to cells, or their boxes are"},
+          {"mailbox",
+           {"true", "false"},
+           0,
+           0,
+           0,
+           "whether a ray remembers what it was tested against, so as not to test it in the next cell again"},
+          {"empty-bonus", {}, 0, 90, 20, "by how many percent a plane is cheaper that cuts off empty space"},
+          {"max-depth", {}, 0, 64, 0, "most planes above a leaf; 0 for 8 + 1.3 log2 of the number of primitives"},
+          {"leaf-size", {}, 1, 64, 1, "sets of at most this many primitives are not parted; the cost decides above it"},
+      }};
 }
 
 std::unique_ptr<Accelerator> build_kd_tree(const Spec& spec, const GeometryPointer& geometry) {

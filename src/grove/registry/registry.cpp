@@ -33,6 +33,7 @@ constexpr std::string_view kRepresentativeSpecs[] = {
     "bvh:optimize=reinsertion",
     "bvh:split=spatial,optimize=reinsertion",
     "kdtree",
+    "kdtree:split=binned",
     "kdtree:split=object-median",
     "kdtree:split=spatial-median",
 };

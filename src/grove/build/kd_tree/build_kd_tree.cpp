@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "grove/build/kd_tree/binned_planes.h"
+#include "grove/build/kd_tree/exact_planes.h"
 #include "grove/build/kd_tree/kd_tree_driver.h"
 #include "grove/build/kd_tree/median_planes.h"
 
@@ -31,6 +32,8 @@ KdTree build_kd_tree(ReferenceList list, const ReferenceClipper& clipper, const 
   if (list.references.empty()) return {};
   const KdCostContext costs{AreaMeasure(list.bounds).scale(), settings.cost, settings.empty_bonus};
   switch (settings.split) {
+    case KdSplit::sah:
+      return drive(std::move(list), ExactPlanes(costs, clipper), settings);
     case KdSplit::object_median:
       return drive(std::move(list), MedianPlanes(MedianPlanes::Of::objects, costs, clipper), settings);
     case KdSplit::spatial_median:

@@ -8,13 +8,14 @@ namespace grove {
 
 /// How a cell is parted.
 enum class KdSplit : std::uint8_t {
+  sah,             ///< the cheapest plane of all, by exact events
   binned,          ///< the cheapest of a few planes between bins
   object_median,   ///< as many centres on one side as on the other
   spatial_median,  ///< in the middle of the longest side
 };
 
 struct KdTreeSettings {
-  KdSplit split = KdSplit::binned;
+  KdSplit split = KdSplit::sah;
   /// Bound what of a primitive lies in a cell exactly ("perfect splits"), not by its box.
   bool clip = true;
   /// By how much of itself the cost of a plane falls that cuts off empty space. In [0, 1).

@@ -48,8 +48,7 @@ void place(const References& references, const KdPlane& plane, std::size_t first
     } else {
       (*side[kind])[at] = reference;
     }
-    if (track == TrackPlaces::yes)
-      for (int s = 0; s < 2; ++s) scratch.places.place[s][i] = kind == s ? at : kNoPlace;
+    if (track == TrackPlaces::yes) scratch.places.of[i] = {kind == 2 ? KdPlace::kInPieces : at << 1U | static_cast<std::uint32_t>(kind)};
   }
 }
 
@@ -96,8 +95,8 @@ void part_references(const References& references, const KdPlane& plane, const R
     side[s]->resize(total.next[s]);
     scratch.pieces[s].resize(total.next[2]);
     scratch.places.whole_count[s] = total.next[s];
-    if (track == TrackPlaces::yes) scratch.places.place[s].resize(size);
   }
+  if (track == TrackPlaces::yes) scratch.places.of.resize(size);
   parallel_chunks(size, chunk_size, [&](std::size_t id, std::size_t first, std::size_t last) {
     place(references, plane, first, last, chunks.empty() ? Cursor() : chunks[id], side, track, scratch);
   });

@@ -10,13 +10,19 @@ namespace grove {
 
 using References = HugeVector<PrimitiveReference>;
 
-/// The place of a reference that is not on a side whole.
-inline constexpr std::uint32_t kNoPlace = 0xffffffffU;
+/// Where a reference of a set went: which side, and its place in that side's set. None where it is in pieces.
+struct KdPlace {
+  std::uint32_t code;  ///< place * 2 + side
 
-/// Which references of a set went where: place[0][i] in the lower set, place[1][i] in the upper one, kNoPlace where not or in pieces. The pieces follow
-/// the whole references in each set, from whole_count on.
+  static constexpr std::uint32_t kInPieces = 0xffffffffU;
+  [[nodiscard]] bool is_whole() const { return code != kInPieces; }
+  [[nodiscard]] int side() const { return static_cast<int>(code & 1U); }
+  [[nodiscard]] std::uint32_t place() const { return code >> 1U; }
+};
+
+/// Places of all references of a set. In each side's set, pieces follow the whole references, from whole_count on.
 struct KdPlaces {
-  HugeVector<std::uint32_t> place[2];
+  HugeVector<KdPlace> of;
   std::uint32_t whole_count[2] = {0, 0};
 };
 
@@ -27,7 +33,7 @@ struct PartScratch {
 };
 
 /// Parts a set by a plane into `side[0]` (lower) and `side[1]`, whatever they held. Those that reach across are cut at the plane and clipped; a piece of
-/// which nothing is left is dropped, but never both. Fills scratch.places where `track` says so. In parallel for large sets; the same for any number of threads.
+/// which nothing is left is dropped, but never both. Fills scratch.places.of where `track` says so. In parallel for large sets; the same for any number of threads.
 enum class TrackPlaces : std::uint8_t { no, yes };
 void part_references(const References& references, const KdPlane& plane, const ReferenceClipper& clipper, References* const side[2],
                      TrackPlaces track, PartScratch& scratch);
