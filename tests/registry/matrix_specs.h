@@ -12,7 +12,8 @@ namespace grove::test {
 /// Families whose keys meet in so many ways that the whole matrix runs over a few specs, which together have each value of each key but the numbers;
 /// the others run over all geometries in one test each (CombinedKeys).
 [[nodiscard]] inline std::vector<std::string> combined_specs(std::string_view family) {
-  if (family == "kdtree") return {"kdtree", "kdtree:split=binned,mailbox=false", "kdtree:split=object-median,clip=false,leaf-size=4"};
+  if (family == "kdtree")
+    return {"kdtree", "kdtree:split=binned,walk=ropes,mailbox=false", "kdtree:split=object-median,clip=false,walk=ropes,leaf-size=4"};
   return {};
 }
 

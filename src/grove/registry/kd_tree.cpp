@@ -1,5 +1,6 @@
 #include "grove/base/check.h"
 #include "grove/base/timer.h"
+#include "grove/build/kd_tree/add_ropes.h"
 #include "grove/build/kd_tree/build_kd_tree.h"
 #include "grove/registry/families.h"
 #include "grove/registry/kd_tree_statistics.h"
@@ -16,7 +17,8 @@ KdSplit parse_split(const std::string& name) {
 }
 
 struct KdTreeOptions {
-  explicit KdTreeOptions(const Spec& spec) : mailbox(spec.value("mailbox") == "true" ? UseMailbox::yes : UseMailbox::no) {
+  explicit KdTreeOptions(const Spec& spec)
+      : has_ropes(spec.value("walk") == "ropes"), mailbox(spec.value("mailbox") == "true" ? UseMailbox::yes : UseMailbox::no) {
     settings.split = parse_split(spec.value("split"));
     settings.clip = spec.value("clip") == "true";
     settings.empty_bonus = 0.01F * static_cast<float>(spec.number("empty-bonus"));
@@ -25,6 +27,7 @@ struct KdTreeOptions {
   }
 
   KdTreeSettings settings;
+  bool has_ropes;
   UseMailbox mailbox;
 };
 
@@ -33,7 +36,8 @@ StructureState<TraceableKdTree<G>> build_state(const G& geometry, const KdTreeOp
   const Timer timer;
   KdTree tree = build_kd_tree(geometry, options.settings);
   GROVE_ASSERT(tree.validate(geometry.size()).empty());
-  TraceableKdTree<G> structure(std::move(tree), geometry, options.mailbox);
+  KdRopes ropes = options.has_ropes ? add_ropes(tree) : KdRopes();
+  TraceableKdTree<G> structure(std::move(tree), std::move(ropes), geometry, options.mailbox);
   const double seconds = timer.seconds();
   const Box bounds = structure.tree.bounds;
   return {std::move(structure), bounds, seconds, {}};
@@ -85,6 +89,12 @@ StructureFamily describe_kd_tree() {
            "where the plane is: at the least surface-area cost of all planes, or of a few between bins; with equal counts on both sides; "
            "or in the middle"},
           {"clip", {"true", "false"}, 0, 0, 0, "whether primitives are clipped to cells, or their boxes are"},
+          {"walk",
+           {"stack", "ropes"},
+           0,
+           0,
+           0,
+           "how a ray comes from leaf to leaf: by a stack of pending nodes, or by links between neighbours"},
           {"mailbox",
            {"true", "false"},
            0,

@@ -36,6 +36,7 @@ constexpr std::string_view kRepresentativeSpecs[] = {
     "kdtree:split=binned",
     "kdtree:split=object-median",
     "kdtree:split=spatial-median",
+    "kdtree:walk=ropes",
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "grove/geometry/geometry_concept.h"
 #include "grove/geometry/leaf_storage.h"
+#include "grove/traverse/kd_rope_traversal.h"
 #include "grove/traverse/kd_tree_traversal.h"
 #include "grove/traverse/mailbox.h"
 
@@ -18,17 +19,27 @@ enum class UseMailbox : std::uint8_t { no, yes };
 template <Geometry G>
 struct TraceableKdTree {
   KdTree tree;
+  KdRopes ropes;  ///< empty where rays are walked with a stack
   LeafStorage<G> leaves;
   UseMailbox mailbox;
 
-  TraceableKdTree(KdTree kd_tree, const G& geometry, UseMailbox use_mailbox)
-      : tree(std::move(kd_tree)), leaves(geometry, tree.references), mailbox(use_mailbox) {}
+  TraceableKdTree(KdTree kd_tree, KdRopes kd_ropes, const G& geometry, UseMailbox use_mailbox)
+      : tree(std::move(kd_tree)), ropes(std::move(kd_ropes)), leaves(geometry, tree.references), mailbox(use_mailbox) {}
 
   /// Bytes kept for tracing.
-  [[nodiscard]] std::size_t memory() const { return tree.memory() + leaves.memory(); }
+  [[nodiscard]] std::size_t memory() const { return tree.memory() + ropes.memory() + leaves.memory(); }
 };
 
 namespace detail {
+
+template <Geometry G, typename LeafTest, typename C>
+void walk_by_either(const TraceableKdTree<G>& structure, const Ray& ray, const float& t_max, const LeafTest& leaf, C& counter) {
+  if (structure.ropes.is_empty()) {
+    walk(structure.tree, ray, t_max, leaf, counter);
+  } else {
+    walk(structure.tree, structure.ropes, ray, t_max, leaf, counter);
+  }
+}
 
 template <typename M, Geometry G, typename C>
 void trace_closest_with(const TraceableKdTree<G>& structure, const G& geometry, const Ray& ray, Hit& hit, C& counter) {
@@ -43,7 +54,7 @@ void trace_closest_with(const TraceableKdTree<G>& structure, const G& geometry, 
     }
     return false;
   };
-  walk(structure.tree, ray, hit.t, test_leaf, counter);
+  walk_by_either(structure, ray, hit.t, test_leaf, counter);
 }
 
 template <typename M, Geometry G, typename C>
@@ -60,7 +71,7 @@ bool trace_any_with(const TraceableKdTree<G>& structure, const G& geometry, cons
     }
     return found;
   };
-  walk(structure.tree, ray, ray.t_max, test_leaf, counter);
+  walk_by_either(structure, ray, ray.t_max, test_leaf, counter);
   return found;
 }
 
