@@ -14,6 +14,7 @@ namespace grove {
 ///   bytes  0..23  cell
 ///   bytes 24..47  ropes: node behind the lower x, upper x, lower y, upper y, lower z, upper z face
 ///   bytes 48..55  first reference, count
+///   bytes 56..63  0
 struct alignas(64) KdRopedLeaf {
   /// Behind this face there is nothing.
   static constexpr std::uint32_t kOutside = 0xffffffffU;
@@ -22,6 +23,7 @@ struct alignas(64) KdRopedLeaf {
   std::uint32_t ropes[6];
   std::uint32_t first;
   std::uint32_t count;
+  std::uint32_t unused[2];
 };
 
 static_assert(sizeof(KdRopedLeaf) == 64);

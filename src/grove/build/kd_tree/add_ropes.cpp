@@ -86,8 +86,10 @@ void move_leaves(KdTree& tree, KdRopes& ropes) {
     std::uint32_t number = first_leaf[chunk];
     for (std::size_t i = first; i < last; ++i) {
       if (!is_used_leaf(i)) continue;
-      ropes.leaves[number].first = tree.nodes[i].first();
-      ropes.leaves[number].count = tree.nodes[i].count();
+      KdRopedLeaf& leaf = ropes.leaves[number];
+      leaf.first = tree.nodes[i].first();
+      leaf.count = tree.nodes[i].count();
+      leaf.unused[0] = leaf.unused[1] = 0;
       tree.nodes[i] = KdNode::leaf(number, tree.nodes[i].count());
       ++number;
     }

@@ -6,7 +6,7 @@
 // each set, and in doing large sets in parallel.
 
 #include "grove/build/kd_tree/event_list.h"
-#include "grove/build/kd_tree/reference_set.h"
+#include "grove/build/kd_tree/part_references.h"
 
 namespace grove {
 

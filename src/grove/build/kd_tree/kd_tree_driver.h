@@ -9,6 +9,7 @@
 #include <concepts>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,7 @@
 namespace grove {
 
 /// Finds planes and parts sets. `Set` holds at least `references`; `Scratch` is what a task needs for itself. Both functions do large sets in parallel, and
-/// their results depend on the set alone.
+/// their results depend on the set alone. A finder may hand small sets to another, for_small_sets().
 template <typename P>
 concept KdPlaneFinder = requires(const P& finder, const typename P::Set& set, const Box4& cell, const KdPlane& plane,
                                  typename P::Set* const* sides, typename P::Scratch& scratch) {
@@ -61,7 +62,15 @@ class KdBuilder {
 
   /// Tasks above, one task's work below.
   KdTreePart build(Set set, const KdCell& cell) const {
-    if (set.references.size() <= kKdTaskSize) return Subtree(*this).build(set, cell);
+    if (set.references.size() <= kKdTaskSize) {
+      if constexpr (requires { finder_.for_small_sets(); }) {
+        const auto finder = finder_.for_small_sets();
+        return KdBuilder<std::remove_const_t<decltype(finder)>>(finder, settings_, most_depth_)
+            .build(finder.make_set(std::move(set.references)), cell);
+      } else {
+        return Subtree(*this).build(set, cell);
+      }
+    }
     KdPlane plane;
     KdCell cells[2];
     Set sets[2];

@@ -19,6 +19,8 @@ class ReferenceFinder {
   ReferenceFinder(const KdCostContext& costs, const ReferenceClipper& clipper) : costs_(costs), clipper_(clipper) {}
   [[nodiscard]] const KdCostContext& costs() const { return costs_; }
 
+  [[nodiscard]] const ReferenceClipper& clipper() const { return clipper_; }
+
   [[nodiscard]] static Set make_set(References references) { return {std::move(references)}; }
   void part(const Set& set, const KdPlane& plane, Set* const sides[2], PartScratch& scratch) const {
     References* const references[2] = {&sides[0]->references, &sides[1]->references};
