@@ -80,7 +80,7 @@ KdPlane find_in_parallel(const Sweep& sweep) {
 
 EventSet ExactPlanes::make_set(References references) {
   EventSet set;
-  list_events(references, 0, set.events);
+  list_events(references, 0, set.events.data());
   set.references = std::move(references);
   return set;
 }
@@ -102,8 +102,8 @@ void ExactPlanes::part(const Set& set, const KdPlane& plane, Set* const sides[2]
   References* const references[2] = {&sides[0]->references, &sides[1]->references};
   part_references(set.references, plane, clipper_, references, TrackPlaces::yes, scratch);
   const References* const parted_references[2] = {references[0], references[1]};
-  KdEvents* const parted[2] = {sides[0]->events, sides[1]->events};
-  part_events(set.events, scratch.places, parted_references, parted, scratch.events);
+  KdEvents* const parted[2] = {sides[0]->events.data(), sides[1]->events.data()};
+  part_events(set.events.data(), scratch.places, parted_references, parted, scratch.events);
 }
 
 }  // namespace grove

@@ -5,6 +5,8 @@
 // are sorted once and stay sorted. Differs from the paper in keeping a list for each axis, so that axes are independent, in numbering references anew in
 // each set, and in doing large sets in parallel.
 
+#include <array>
+
 #include "grove/build/kd_tree/event_list.h"
 #include "grove/build/kd_tree/part_references.h"
 
@@ -12,7 +14,7 @@ namespace grove {
 
 struct EventSet {
   References references;
-  KdEvents events[3];
+  std::array<KdEvents, 3> events;  ///< by axis
 };
 
 class ExactPlanes {

@@ -10,7 +10,7 @@ namespace grove {
 enum class KdSplit : std::uint8_t {
   sah,             ///< the cheapest plane of all, by exact events
   binned,          ///< the cheapest of a few planes between bins
-  object_median,   ///< as many centres on one side as on the other
+  object_median,   ///< as many primitives on one side as on the other
   spatial_median,  ///< in the middle of the longest side
 };
 

@@ -2,25 +2,24 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 
 #include "grove/base/parallel.h"
 
 namespace grove {
 namespace {
 
-// Twice the centre along an axis, as a number in the same order.
-std::uint32_t centre_key(const PrimitiveReference& reference, int axis) {
-  const auto bits = std::bit_cast<std::uint32_t>(reference.lower[axis] + reference.upper[axis] + 0.0F);
+// A position as a number in the same order.
+std::uint32_t key_of(float position) {
+  const auto bits = std::bit_cast<std::uint32_t>(position + 0.0F);
   return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
 }
 
-float centre_of_key(std::uint32_t key) {
-  return 0.5F * std::bit_cast<float>((key & 0x80000000U) != 0 ? key & 0x7fffffffU : ~key);
+float position_of(std::uint32_t key) {
+  return std::bit_cast<float>((key & 0x80000000U) != 0 ? key & 0x7fffffffU : ~key);
 }
 
-// The key with `rank` keys before it: digit by digit from the top, counting in parallel.
-std::uint32_t select_key(const References& references, int axis, std::size_t rank) {
+// Of where the references begin and end, the position with `rank` others before it: digit by digit from the top, counting in parallel.
+float select_end(const References& references, int axis, std::size_t rank) {
   constexpr std::uint32_t kDigits = 1U << 11U;
   std::uint32_t prefix = 0;
   std::uint32_t known = 0;  // mask of the bits in prefix
@@ -30,8 +29,10 @@ std::uint32_t select_key(const References& references, int axis, std::size_t ran
     parallel_chunks(references.size(), kBuildChunkSize, [&](std::size_t id, std::size_t first, std::size_t last) {
       chunks[id].assign(digits, 0);
       for (std::size_t i = first; i < last; ++i) {
-        const std::uint32_t key = centre_key(references[i], axis);
-        if ((key & known) == prefix) ++chunks[id][key >> static_cast<unsigned>(shift) & (digits - 1)];
+        for (const float end : {static_cast<float>(references[i].lower[axis]), static_cast<float>(references[i].upper[axis])}) {
+          const std::uint32_t key = key_of(end);
+          if ((key & known) == prefix) ++chunks[id][key >> static_cast<unsigned>(shift) & (digits - 1)];
+        }
       }
     });
     for (std::size_t id = 1; id < chunks.size(); ++id)
@@ -41,16 +42,20 @@ std::uint32_t select_key(const References& references, int axis, std::size_t ran
     prefix |= digit << static_cast<unsigned>(shift);
     known |= (digits - 1) << static_cast<unsigned>(shift);
   }
-  return prefix;
+  return position_of(prefix);
 }
 
-float median_centre(const References& references, int axis, std::vector<std::uint32_t>& keys) {
-  const std::size_t rank = references.size() / 2;
-  if (references.size() > kKdParallelSize) return centre_of_key(select_key(references, axis, rank));
-  keys.resize(references.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = centre_key(references[i], axis);
-  std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(rank), keys.end());
-  return centre_of_key(keys[rank]);
+// With as many begins and ends below as above: then as many references reach below as above.
+float median_end(const References& references, int axis, std::vector<float>& ends) {
+  const std::size_t rank = references.size();
+  if (references.size() > kKdParallelSize) return select_end(references, axis, rank);
+  ends.resize(2 * references.size());
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    ends[2 * i] = references[i].lower[axis];
+    ends[2 * i + 1] = references[i].upper[axis];
+  }
+  std::nth_element(ends.begin(), ends.begin() + static_cast<std::ptrdiff_t>(rank), ends.end());
+  return ends[rank];
 }
 
 void count_sides(const References& references, KdPlane& plane) {
@@ -79,8 +84,7 @@ KdPlane MedianPlanes::find(const ReferenceSet& set, const Box4& cell, Scratch& s
   for (const int axis : axes) {
     KdPlane plane;
     plane.axis = axis;
-    plane.position =
-        of_ == Of::space ? 0.5F * cell.lower[axis] + 0.5F * cell.upper[axis] : median_centre(set.references, axis, scratch.keys);
+    plane.position = of_ == Of::space ? 0.5F * cell.lower[axis] + 0.5F * cell.upper[axis] : median_end(set.references, axis, scratch.ends);
     if (!is_inside(cell, axis, plane.position)) continue;
     plane.is_possible = true;
     count_sides(set.references, plane);
