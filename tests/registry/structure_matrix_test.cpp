@@ -15,19 +15,42 @@
 namespace grove::test {
 namespace {
 
-// The representative specs, and each value of each key on its own.
+// Each value of each key of a family on its own.
+std::vector<std::string> specs_of(const StructureFamily& family) {
+  std::vector<std::string> specs;
+  for (const SpecKey& key : family.keys) {
+    std::vector<std::string> values(key.values.begin(), key.values.end());
+    if (key.is_number()) values = {std::to_string(key.minimum), std::to_string(key.maximum)};
+    for (const std::string& value : values)
+      specs.push_back(canonical_spec(std::string(family.name) + ":" + std::string(key.name) + "=" + value));
+  }
+  return specs;
+}
+
+void add_new(std::vector<std::string>& specs, const std::vector<std::string>& others) {
+  for (const std::string& spec : others)
+    if (std::find(specs.begin(), specs.end(), spec) == specs.end()) specs.push_back(spec);
+}
+
+// The representative specs, and each value of each key on its own, of the families whose keys are not combined.
 std::vector<std::string> listed_specs() {
   std::vector<std::string> specs = representatives();
-  for (const StructureFamily& family : structure_families()) {
-    for (const SpecKey& key : family.keys) {
-      std::vector<std::string> values(key.values.begin(), key.values.end());
-      if (key.is_number()) values = {std::to_string(key.minimum), std::to_string(key.maximum)};
-      for (const std::string& value : values) {
-        const std::string spec = canonical_spec(std::string(family.name) + ":" + std::string(key.name) + "=" + value);
-        if (std::find(specs.begin(), specs.end(), spec) == specs.end()) specs.push_back(spec);
-      }
-    }
-  }
+  for (const StructureFamily& family : structure_families())
+    if (combined_specs(family.name).empty()) add_new(specs, specs_of(family));
+  return specs;
+}
+
+// What the matrix leaves out of the families whose keys are combined: each value on its own, and the splits with some.
+std::vector<std::string> left_out_specs() {
+  std::vector<std::string> specs = listed_specs();
+  const std::size_t listed = specs.size();
+  for (const StructureFamily& family : structure_families())
+    if (!combined_specs(family.name).empty()) add_new(specs, specs_of(family));
+  for (const char* const split : {"sah", "binned", "object-median", "spatial-median"})
+    for (const char* const rest :
+         {"walk=ropes", "walk=ropes,clip=false", "mailbox=false,clip=false,empty-bonus=0", "walk=ropes,mailbox=false,max-depth=4"})
+      add_new(specs, {canonical_spec(std::string("kdtree:split=") + split + "," + rest)});
+  specs.erase(specs.begin(), specs.begin() + static_cast<std::ptrdiff_t>(listed));
   return specs;
 }
 
@@ -141,6 +164,19 @@ INSTANTIATE_TEST_SUITE_P(All, StructureMatrix,
                          [](const auto& test) {
                            return as_test_name(std::get<0>(test.param) + "_" + geometries()[std::get<1>(test.param)].name);
                          });
+
+class CombinedKeys : public testing::TestWithParam<std::string> {};
+
+TEST_P(CombinedKeys, GiveHitsOfBruteForce) {
+  for (const NamedGeometry& named : geometries()) {
+    SCOPED_TRACE(named.name);
+    const std::unique_ptr<Accelerator> oracle = build(named.geometry, "brute");
+    const std::unique_ptr<Accelerator> structure = build(named.geometry, GetParam());
+    expect_equal_hits(*structure, *oracle, matrix_rays(named.geometry, 40, 45));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CombinedKeys, testing::ValuesIn(left_out_specs()), [](const auto& test) { return as_test_name(test.param); });
 
 class EachStructure : public testing::TestWithParam<std::string> {};
 

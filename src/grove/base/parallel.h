@@ -48,9 +48,9 @@ void parallel_invoke(const First& first, const Second& second) {
   oneapi::tbb::parallel_invoke(first, second);
 }
 
-/// Sorts a vector whose items all differ under `less`, so that the result does not depend on the number of threads.
-template <typename T, typename Less>
-void parallel_sort(std::vector<T>& items, const Less& less) {
+/// Sorts a std::vector or HugeVector whose items all differ under `less`, so that the result does not depend on the number of threads.
+template <typename T, typename Allocator, typename Less>
+void parallel_sort(std::vector<T, Allocator>& items, const Less& less) {
   oneapi::tbb::parallel_sort(items.begin(), items.end(), less);
 }
 

@@ -12,6 +12,7 @@ namespace grove {
 
 struct Bvh2;
 struct FastBvh;
+struct KdTree;
 template <int kWidth>
 struct WideBvh;
 template <BoundingVolume V>
@@ -50,6 +51,8 @@ template <int kWidth>
 
 /// The same for the hierarchy of the fast path.
 [[nodiscard]] double expected_cost(const FastBvh& bvh, const CostModel& model);
+/// The same for a kd-tree, whose cells take the place of boxes.
+[[nodiscard]] double expected_cost(const KdTree& tree, const CostModel& model);
 
 /// The same by the areas of the hierarchy's own volumes, for a ray that meets the volume of the root.
 template <BoundingVolume V>

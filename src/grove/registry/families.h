@@ -22,5 +22,7 @@ struct RegistryRow {
 
 [[nodiscard]] StructureFamily describe_fast();
 [[nodiscard]] std::unique_ptr<Accelerator> build_fast(const Spec& spec, const GeometryPointer& geometry);
+[[nodiscard]] StructureFamily describe_kd_tree();
+[[nodiscard]] std::unique_ptr<Accelerator> build_kd_tree(const Spec& spec, const GeometryPointer& geometry);
 
 }  // namespace grove

@@ -14,6 +14,7 @@ constexpr RegistryRow kRows[] = {
     {describe_brute, build_brute},
     {describe_bvh, build_bvh},
     {describe_fast, build_fast},
+    {describe_kd_tree, build_kd_tree},
 };
 
 constexpr std::string_view kRepresentativeSpecs[] = {
@@ -35,6 +36,11 @@ constexpr std::string_view kRepresentativeSpecs[] = {
     "fast",
     "fast:quality=low",
     "fast:quality=high",
+    "kdtree",
+    "kdtree:split=binned",
+    "kdtree:split=object-median",
+    "kdtree:split=spatial-median",
+    "kdtree:walk=ropes",
 };
 
 }  // namespace

@@ -1,0 +1,97 @@
+#pragma once
+
+// Tracing a kd-tree over a geometry: what its leaves do, with or without a mailbox.
+
+#include <cstdint>
+#include <utility>
+
+#include "grove/geometry/geometry_concept.h"
+#include "grove/geometry/leaf_storage.h"
+#include "grove/traverse/kd_rope_traversal.h"
+#include "grove/traverse/kd_tree_traversal.h"
+#include "grove/traverse/mailbox.h"
+
+namespace grove {
+
+enum class UseMailbox : std::uint8_t { no, yes };
+
+/// A kd-tree together with the way its leaves reach the primitives of a geometry.
+template <Geometry G>
+struct TraceableKdTree {
+  KdTree tree;
+  KdRopes ropes;  ///< empty where rays are walked with a stack
+  LeafStorage<G> leaves;
+  UseMailbox mailbox;
+
+  TraceableKdTree(KdTree kd_tree, KdRopes kd_ropes, const G& geometry, UseMailbox use_mailbox)
+      : tree(std::move(kd_tree)), ropes(std::move(kd_ropes)), leaves(geometry, tree.references), mailbox(use_mailbox) {}
+
+  /// Bytes kept for tracing.
+  [[nodiscard]] std::size_t memory() const { return tree.memory() + ropes.memory() + leaves.memory(); }
+};
+
+namespace detail {
+
+template <Geometry G, typename LeafTest, typename C>
+void walk_by_either(const TraceableKdTree<G>& structure, const Ray& ray, const float& t_max, const LeafTest& leaf, C& counter) {
+  if (structure.ropes.is_empty()) {
+    walk(structure.tree, ray, t_max, leaf, counter);
+  } else {
+    walk(structure.tree, structure.ropes, ray, t_max, leaf, counter);
+  }
+}
+
+template <typename M, Geometry G, typename C>
+void trace_closest_with(const TraceableKdTree<G>& structure, const G& geometry, const Ray& ray, Hit& hit, C& counter) {
+  M mailbox;
+  const typename G::PreparedRay prepared = geometry.prepare(ray);
+  const std::uint32_t* const references = structure.tree.references.data();
+  const auto test_leaf = [&](std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t slot = first; slot < first + count; ++slot) {
+      if (mailbox.remembers(references[slot])) continue;
+      counter.test_primitive();
+      structure.leaves.intersect(geometry, references, slot, prepared, hit, counter);
+    }
+    return false;
+  };
+  walk_by_either(structure, ray, hit.t, test_leaf, counter);
+}
+
+template <typename M, Geometry G, typename C>
+bool trace_any_with(const TraceableKdTree<G>& structure, const G& geometry, const Ray& ray, C& counter) {
+  M mailbox;
+  const typename G::PreparedRay prepared = geometry.prepare(ray);
+  const std::uint32_t* const references = structure.tree.references.data();
+  bool found = false;
+  const auto test_leaf = [&](std::uint32_t first, std::uint32_t count) {
+    for (std::uint32_t slot = first; slot < first + count && !found; ++slot) {
+      if (mailbox.remembers(references[slot])) continue;
+      counter.test_primitive();
+      found = structure.leaves.occluded(geometry, references, slot, prepared, counter);
+    }
+    return found;
+  };
+  walk_by_either(structure, ray, ray.t_max, test_leaf, counter);
+  return found;
+}
+
+}  // namespace detail
+
+/// Closest hit. `hit.t` must start as the ray's t_max.
+template <Geometry G, typename C>
+void trace_closest(const TraceableKdTree<G>& structure, const G& geometry, const Ray& ray, Hit& hit, C& counter) {
+  if (structure.mailbox == UseMailbox::yes) {
+    detail::trace_closest_with<Mailbox>(structure, geometry, ray, hit, counter);
+  } else {
+    detail::trace_closest_with<NoMailbox>(structure, geometry, ray, hit, counter);
+  }
+}
+
+/// Any hit within [ray.t_min, ray.t_max].
+template <Geometry G, typename C>
+bool trace_any(const TraceableKdTree<G>& structure, const G& geometry, const Ray& ray, C& counter) {
+  if (structure.mailbox == UseMailbox::yes) return detail::trace_any_with<Mailbox>(structure, geometry, ray, counter);
+  return detail::trace_any_with<NoMailbox>(structure, geometry, ray, counter);
+}
+
+}  // namespace grove

@@ -1,0 +1,236 @@
+// Kd-trees as wholes: what lies in which leaf, limits, degenerate sets, threads, ropes. Hits are checked in tests/registry.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <map>
+#include <string>
+
+#include "build/sample_meshes.h"
+#include "build/threads.h"
+#include "grove/build/kd_tree/add_ropes.h"
+#include "grove/build/kd_tree/build_kd_tree.h"
+
+namespace grove {
+namespace {
+
+constexpr KdSplit kSplits[] = {KdSplit::sah, KdSplit::binned, KdSplit::object_median, KdSplit::spatial_median};
+
+// Each point of each triangle, up to rounding, lies in the cell of a leaf that refers to the triangle.
+void expect_points_in_their_leaves(const KdTree& tree, const TriangleMesh& mesh) {
+  Random random(1);
+  std::size_t lost = 0;
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    if (mesh.bounds(i).is_empty()) continue;
+    for (int sample = 0; sample < 8; ++sample) {
+      // Corners and edges among them.
+      const double u = sample < 2 ? 0.0 : random.next_float();
+      const double v = sample == 0 || sample == 4 ? 0.0 : random.next_float();
+      const glm::dvec3 p = mesh.surface_point(i, u, v);
+      constexpr double kRounding = 1e-6;
+      bool is_found = false;
+      std::vector<std::uint32_t> pending{0};
+      while (!pending.empty() && !is_found) {
+        const KdNode node = tree.nodes[pending.back()];
+        pending.pop_back();
+        if (node.is_leaf()) {
+          const auto first = tree.references.begin() + node.first();
+          is_found = std::binary_search(first, first + node.count(), static_cast<std::uint32_t>(i));
+          continue;
+        }
+        const double position = p[static_cast<int>(node.axis())];
+        if (position <= node.plane() + kRounding) pending.push_back(node.lower_child());
+        if (position >= node.plane() - kRounding) pending.push_back(node.lower_child() + 1);
+      }
+      lost += is_found ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(lost, 0U);
+}
+
+TEST(KdTree, HasEachPointInALeafThatRefersToIt) {
+  for (const KdSplit split : kSplits) {
+    for (const bool clip : {true, false}) {
+      for (const TriangleMesh& mesh : {testing::pebbles(3000, 0.1F, 2), testing::slivers(2000, 3)}) {
+        const KdTree tree = build_kd_tree(mesh, {.split = split, .clip = clip});
+        EXPECT_EQ(tree.validate(mesh.size()), "");
+        expect_points_in_their_leaves(tree, mesh);
+      }
+    }
+  }
+}
+
+TEST(KdTree, OfExactPlanesIsCheaperThanOthers) {
+  const TriangleMesh mesh = testing::pebbles(5000, 0.05F, 4);
+  const CostModel model = KdTreeSettings().cost;
+  const double exact = expected_cost(build_kd_tree(mesh, {}), model);
+  EXPECT_LE(exact, 1.02 * expected_cost(build_kd_tree(mesh, {.split = KdSplit::binned}), model));
+  EXPECT_LT(exact, expected_cost(build_kd_tree(mesh, {.split = KdSplit::spatial_median}), model));
+  EXPECT_LT(exact, expected_cost(build_kd_tree(mesh, {.split = KdSplit::object_median}), model));
+  EXPECT_LT(exact, expected_cost(build_kd_tree(mesh, {.clip = false}), model));
+  // And than no tree at all.
+  EXPECT_LT(exact, 0.1 * static_cast<double>(mesh.size()));
+}
+
+TEST(KdTree, KeepsToItsLimits) {
+  const TriangleMesh mesh = testing::slivers(5000, 5);
+  for (const KdSplit split : kSplits) {
+    for (const double most : {1.0, 1.3, 3.0}) {
+      const KdTree tree = build_kd_tree(mesh, {.split = split, .most_references = most});
+      EXPECT_LE(static_cast<double>(tree.references.size()), most * static_cast<double>(mesh.size()));
+      EXPECT_EQ(tree.validate(mesh.size()), "");
+    }
+    EXPECT_LE(build_kd_tree(mesh, {.split = split, .most_depth = 5}).depth, 5U);
+    EXPECT_EQ(build_kd_tree(mesh, {.split = split, .leaf_size = 5000}).nodes.size(), 2U);
+  }
+}
+
+struct NamedMesh {
+  std::string name;
+  TriangleMesh mesh;
+};
+
+// Sets that give a plane nothing to go by.
+std::vector<NamedMesh> degenerate_meshes() {
+  constexpr std::uint32_t kCount = 20000;
+  const auto make = [](const auto& vertex_of) {
+    std::vector<Vec3> vertices;
+    std::vector<Triangle> triangles;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      for (int corner = 0; corner < 3; ++corner) vertices.push_back(vertex_of(i, corner));
+      triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+    }
+    return TriangleMesh(std::move(vertices), std::move(triangles));
+  };
+  const Vec3 corners[] = {{0, 0, 0}, {1, 0, 1}, {0, 1, 1}};
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  Random random(6);
+  std::vector<NamedMesh> meshes;
+  meshes.push_back({"in one plane", make([&](std::uint32_t i, int corner) {
+                      const Vec3 p = corners[corner];
+                      return Vec3(p.x + static_cast<float>(i % 100), p.y + static_cast<float>(i / 100), 3.0F);
+                    })});
+  meshes.push_back({"axis-aligned duplicates", make([&](std::uint32_t i, int corner) {
+                      return Vec3(static_cast<float>(i % 5), corners[corner].x, corners[corner].y);
+                    })});
+  meshes.push_back({"identical", make([&](std::uint32_t /*i*/, int corner) { return corners[corner]; })});
+  meshes.push_back({"not finite", make([&](std::uint32_t i, int corner) {
+                      const Vec3 p = 0.01F * corners[corner] + testing::random_point(random);
+                      return i % 3 == 0 && corner == 1 ? Vec3(p.x, nan, p.z) : p;
+                    })});
+  meshes.push_back({"all overlap every cell", make([&](std::uint32_t i, int corner) {
+                      return 100.0F * corners[corner] + 1e-3F * static_cast<float>(i % 7) * testing::random_point(random);
+                    })});
+  meshes.push_back({"points", make([](std::uint32_t i, int /*corner*/) { return Vec3(static_cast<float>(i % 7)); })});
+  meshes.push_back({"on a line", make([](std::uint32_t i, int corner) { return Vec3(static_cast<float>(i + corner), 0.0F, 0.0F); })});
+  return meshes;
+}
+
+TEST(KdTree, IsWholeAndBoundedForDegenerateSets) {
+  for (const auto& [name, mesh] : degenerate_meshes()) {
+    SCOPED_TRACE(name);
+    for (const KdSplit split : kSplits) {
+      for (const bool clip : {true, false}) {
+        const KdTree tree = build_kd_tree(mesh, {.split = split, .clip = clip});
+        ASSERT_EQ(tree.validate(mesh.size()), "");
+        EXPECT_LE(tree.depth, 28U);
+        std::vector<bool> is_referenced(mesh.size(), false);
+        for (const std::uint32_t id : tree.references) is_referenced[id] = true;
+        std::size_t hittable = 0;
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < mesh.size(); ++i) {
+          const bool can_be_hit = !mesh.bounds(i).is_empty();
+          hittable += can_be_hit ? 1 : 0;
+          wrong += is_referenced[i] != can_be_hit ? 1 : 0;
+        }
+        EXPECT_EQ(wrong, 0U) << "are left out, or in for nothing";
+        EXPECT_LE(tree.references.size(), 8 * hittable);
+      }
+    }
+  }
+}
+
+TEST(KdTree, OfNothingIsEmpty) {
+  KdTree tree = build_kd_tree(TriangleMesh(), {});
+  EXPECT_EQ(tree.validate(0), "");
+  EXPECT_TRUE(tree.nodes.empty());
+  EXPECT_TRUE(add_ropes(tree).is_empty());
+}
+
+template <typename T>
+bool same_bytes(const HugeVector<T>& a, const HugeVector<T>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+TEST(KdTree, IsTheSameForAnyNumberOfThreads) {
+  // Large enough for every stage of parallel building.
+  const TriangleMesh mesh = testing::pebbles(150000, 0.02F, 7);
+  for (const KdSplit split : kSplits) {
+    KdTree first;
+    KdRopes first_ropes;
+    for (const int threads : {1, 2, 3, 8}) {
+      KdRopes ropes;
+      KdTree tree = testing::with_threads(threads, [&] {
+        KdTree built = build_kd_tree(mesh, {.split = split});
+        ropes = add_ropes(built);
+        return built;
+      });
+      if (threads == 1) {
+        first = std::move(tree);
+        first_ropes = std::move(ropes);
+        continue;
+      }
+      EXPECT_TRUE(same_bytes(tree.nodes, first.nodes)) << threads << " threads";
+      EXPECT_TRUE(same_bytes(tree.references, first.references)) << threads << " threads";
+      EXPECT_TRUE(same_bytes(ropes.leaves, first_ropes.leaves)) << threads << " threads";
+    }
+  }
+}
+
+TEST(KdRopes, LeadToTheNeighbour) {
+  for (const KdSplit split : kSplits) {
+    const TriangleMesh mesh = testing::pebbles(2000, 0.1F, 8);
+    KdTree tree = build_kd_tree(mesh, {.split = split});
+    const KdRopes ropes = add_ropes(tree);
+    std::vector<Box> cells(tree.nodes.size());
+    cells[0] = tree.bounds;
+    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
+      if (i == 1 || tree.nodes[i].is_leaf()) continue;
+      const int axis = static_cast<int>(tree.nodes[i].axis());
+      const std::uint32_t lower = tree.nodes[i].lower_child();
+      cells[lower] = cells[lower + 1] = cells[i];
+      cells[lower].upper[axis] = cells[lower + 1].lower[axis] = tree.nodes[i].plane();
+    }
+    std::size_t wrong = 0;
+    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
+      if (i == 1 || !tree.nodes[i].is_leaf()) continue;
+      const KdRopedLeaf& leaf = ropes.leaves[tree.nodes[i].first()];
+      wrong += leaf.cell.lower == cells[i].lower && leaf.cell.upper == cells[i].upper && leaf.count == tree.nodes[i].count() ? 0 : 1;
+      for (int face = 0; face < 6; ++face) {
+        const int axis = face / 2;
+        const bool is_upper = face % 2 == 1;
+        const float plane = is_upper ? leaf.cell.upper[axis] : leaf.cell.lower[axis];
+        const bool is_outer = plane == (is_upper ? tree.bounds.upper[axis] : tree.bounds.lower[axis]);
+        if (leaf.ropes[face] == KdRopedLeaf::kOutside) {
+          wrong += is_outer ? 0 : 1;
+          continue;
+        }
+        const Box& behind = cells[leaf.ropes[face]];
+        wrong += plane == (is_upper ? behind.lower[axis] : behind.upper[axis]) ? 0 : 1;
+        for (int other = 0; other < 3; ++other)
+          if (other != axis)
+            wrong += behind.lower[other] <= leaf.cell.lower[other] && leaf.cell.upper[other] <= behind.upper[other] ? 0 : 1;
+        // No smaller node would do.
+        const KdNode node = tree.nodes[leaf.ropes[face]];
+        if (node.is_leaf()) continue;
+        const int across = static_cast<int>(node.axis());
+        wrong += across != axis && leaf.cell.lower[across] < node.plane() && node.plane() < leaf.cell.upper[across] ? 0 : 1;
+      }
+    }
+    EXPECT_EQ(wrong, 0U);
+  }
+}
+
+}  // namespace
+}  // namespace grove
