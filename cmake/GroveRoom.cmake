@@ -14,6 +14,9 @@ if(GROVE_WARNINGS_AS_ERRORS)
   target_compile_options(grove_warnings INTERFACE -Werror)
 endif()
 
+# For builds from nothing without a compiler cache, which does not see through precompiled headers.
+option(GROVE_PRECOMPILE_HEADERS "Parse the headers that most sources include once a target" OFF)
+
 # grove_room(NAME SOURCES a.cpp… DEPENDS room… LIBRARIES target… PRIVATE_LIBRARIES target…)
 # Libraries of other packages are named PACKAGE::target, which is how the installed package knows what to look for.
 function(grove_room name)
@@ -26,5 +29,8 @@ function(grove_room name)
   target_link_libraries(grove_${name}
     PUBLIC grove_flags ${ROOM_DEPENDS} ${ROOM_LIBRARIES}
     PRIVATE $<BUILD_INTERFACE:grove_warnings> ${ROOM_PRIVATE_LIBRARIES})
+  if(GROVE_PRECOMPILE_HEADERS)
+    target_precompile_headers(grove_${name} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h)
+  endif()
   set_target_properties(grove_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
 endfunction()
