@@ -18,6 +18,10 @@ struct alignas(64) WideNode {
   struct Child {
     std::uint32_t first;
     std::uint32_t count;
+
+    [[nodiscard]] bool is_leaf() const { return count > 0; }
+    /// The number of a node that is no leaf.
+    [[nodiscard]] std::uint32_t node() const { return first; }
   };
 
   float planes[3][2][kWidth];

@@ -35,56 +35,17 @@ namespace grove {
   return ~static_cast<unsigned>(four_lanes(outside)) & 0xfU;
 }
 
-/// All lines of a node, or of a block.
-inline void prefetch(const FastBvh& bvh, FastChild child) {
-  const char* const line = child.is_leaf() ? reinterpret_cast<const char*>(bvh.blocks.data() + child.block())
-                                           : reinterpret_cast<const char*>(bvh.nodes.data() + child.node());
-  for (int offset = 0; offset < 256; offset += 64) __builtin_prefetch(line + offset);
-}
-
-/// Walks the leaves that the ray meets, near to far. leaf(block, count) tests a block and returns whether the walk is over; it may lower what
-/// `t_max` refers to. The ray must be traceable.
+/// Walks the blocks that the ray meets, near to far; otherwise as walk_nodes, of which leaf(block, count) is the leaf.
 template <typename LeafTest, typename C>
-void walk_fast(const FastBvh& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, C& counter) {
+void walk_blocks(const FastBvh& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, C& counter) {
   if (bvh.nodes.empty()) return;
-  struct Entry {
-    FastChild child;
-    float t;
+  const auto prefetch = [&](FastChild child) {
+    const char* const line = reinterpret_cast<const char*>(bvh.blocks.data() + child.block());
+    for (std::size_t offset = 0; offset < sizeof(TriangleBlock); offset += 64) __builtin_prefetch(line + offset);
   };
-  constexpr int kWidth = FastNode::kWidth;
-  // Each level leaves at most kWidth - 1 behind.
-  Entry stack[(kWidth - 1) * (Bvh2::kMaxDepth + 1) + kWidth];
-  std::uint32_t stack_size = 0;
-  const WideSlabs<kWidth> slabs(SlabRay(ray, bvh.bounds));
-  const Float4 t_min = splat(ray.t_min > 0.0F ? ray.t_min : 0.0F);
-  FastChild next = FastChild::node(0);
-  for (;;) {
-    if (next.is_leaf()) {
-      counter.enter_leaf();
-      if (leaf(bvh.blocks[next.block()], next.count())) return;
-    } else {
-      const FastNode& node = bvh.nodes[next.node()];
-      counter.visit_node();
-      float entry[kWidth];
-      unsigned met = slabs.test(node, t_min, splat(t_max), entry);
-      const std::uint32_t bottom = stack_size;
-      for (; met != 0; met &= met - 1) {
-        const int i = std::countr_zero(met);
-        prefetch(bvh, node.child[i]);
-        // Insertion by distance, the nearest on top; mostly there are one or two.
-        std::uint32_t place = stack_size++;
-        for (; place > bottom && stack[place - 1].t < entry[i]; --place) stack[place] = stack[place - 1];
-        stack[place] = {node.child[i], entry[i]};
-      }
-      counter.reach_stack_depth(stack_size);
-    }
-    // A tie must still be visited: the primitive there may have a lower id.
-    do {
-      if (stack_size == 0) return;
-      --stack_size;
-    } while (stack[stack_size].t > t_max);
-    next = stack[stack_size].child;
-  }
+  walk_nodes(
+      bvh.nodes.data(), bvh.bounds, ray, t_max, [&](FastChild child) { return leaf(bvh.blocks[child.block()], child.count()); }, prefetch,
+      counter);
 }
 
 /// Closest hit. `hit.t` must start as the ray's t_max.
@@ -99,7 +60,7 @@ void trace_closest(const FastBvh& bvh, const Ray& ray, Hit& hit, C& counter) {
     }
     return false;
   };
-  walk_fast(bvh, ray, hit.t, test_leaf, counter);
+  walk_blocks(bvh, ray, hit.t, test_leaf, counter);
 }
 
 /// Any hit within [ray.t_min, ray.t_max].
@@ -115,7 +76,7 @@ bool trace_any(const FastBvh& bvh, const Ray& ray, C& counter) {
     }
     return found;
   };
-  walk_fast(bvh, ray, ray.t_max, test_leaf, counter);
+  walk_blocks(bvh, ray, ray.t_max, test_leaf, counter);
   return found;
 }
 

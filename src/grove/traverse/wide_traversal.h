@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <type_traits>
 
 #include "grove/accel/bvh2.h"
 #include "grove/accel/wide_bvh.h"
@@ -55,6 +56,60 @@ class WideSlabs {
   int near_[3];
 };
 
+/// Walks the children that are leaves and that the ray meets, near to far. leaf(child) returns whether the walk is over; it may lower what `t_max` refers to.
+/// `Node` has `planes` as WideNode has, and children that know is_leaf() and node(). Node 0 must be there, and the ray traceable.
+template <typename Node, typename LeafTest, typename LeafPrefetch, typename C>
+void walk_nodes(const Node* nodes, const Box& bounds, const Ray& ray, const float& t_max, const LeafTest& leaf,
+                const LeafPrefetch& prefetch_leaf, C& counter) {
+  using Child = std::remove_cvref_t<decltype(nodes->child[0])>;
+  constexpr int kWidth = static_cast<int>(std::extent_v<decltype(nodes->child)>);
+  struct Entry {
+    Child child;
+    float t;
+  };
+  // Each level leaves at most kWidth - 1 behind; a node above a single leaf may be one level more.
+  Entry stack[(kWidth - 1) * (Bvh2::kMaxDepth + 1) + kWidth];
+  std::uint32_t stack_size = 0;
+  const WideSlabs<kWidth> slabs(SlabRay(ray, bounds));
+  const Float4 t_min = splat(ray.t_min > 0.0F ? ray.t_min : 0.0F);
+  const Node* node = nodes;
+  for (;;) {
+    counter.visit_node();
+    float entry[kWidth];
+    unsigned met = slabs.test(*node, t_min, splat(t_max), entry);
+    const std::uint32_t bottom = stack_size;
+    for (; met != 0; met &= met - 1) {
+      const int i = std::countr_zero(met);
+      const Child child = node->child[i];
+      if (child.is_leaf()) {
+        prefetch_leaf(child);
+      } else {
+        const char* const line = reinterpret_cast<const char*>(nodes + child.node());
+        for (std::size_t offset = 0; offset < sizeof(Node); offset += 64) __builtin_prefetch(line + offset);
+      }
+      // Insertion by distance, the nearest on top; mostly there are one or two.
+      std::uint32_t place = stack_size++;
+      for (; place > bottom && stack[place - 1].t < entry[i]; --place) stack[place] = stack[place - 1];
+      stack[place] = {child, entry[i]};
+    }
+    counter.reach_stack_depth(stack_size);
+    for (;;) {
+      // A tie must still be visited: the primitive there may have a lower id.
+      do {
+        if (stack_size == 0) return;
+        --stack_size;
+      } while (stack[stack_size].t > t_max);
+      const Child next = stack[stack_size].child;
+      if (!next.is_leaf()) {
+        node = nodes + next.node();
+        break;
+      }
+      counter.enter_leaf();
+      if (leaf(next)) return;
+    }
+  }
+}
+
 /// Walks the leaves that the ray meets; the contract is that of the walk through a Bvh2.
 template <int kWidth, typename LeafTest, typename LeafPrefetch, typename C>
 void walk(const WideBvh<kWidth>& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, const LeafPrefetch& prefetch_leaf,
@@ -66,56 +121,9 @@ void walk(const WideBvh<kWidth>& bvh, const Ray& ray, const float& t_max, const 
     return;
   }
   using Child = typename WideNode<kWidth>::Child;
-  struct Entry {
-    Child child;
-    float t;
-  };
-  // Each level leaves at most kWidth - 1 behind.
-  Entry stack[(kWidth - 1) * Bvh2::kMaxDepth + kWidth];
-  std::uint32_t stack_size = 0;
-  const WideSlabs<kWidth> slabs(SlabRay(ray, bvh.bounds));
-  const Float4 t_min = splat(ray.t_min > 0.0F ? ray.t_min : 0.0F);
-  Float4 limit = splat(t_max);
-  Child next{0, 0};
-  for (;;) {
-    if (next.count > 0) {
-      counter.enter_leaf();
-      if (leaf(next.first, next.count)) return;
-      limit = splat(t_max);
-    } else {
-      const WideNode<kWidth>& node = bvh.nodes[next.first];
-      counter.visit_node();
-      float entry[kWidth];
-      unsigned met = slabs.test(node, t_min, limit, entry);
-      if (met != 0) {
-        const std::uint32_t bottom = stack_size;
-        do {
-          const int i = std::countr_zero(met);
-          met &= met - 1;
-          const Child child = node.child[i];
-          if (child.count > 0) {
-            prefetch_leaf(child.first);
-          } else {
-            const char* const line = reinterpret_cast<const char*>(bvh.nodes.data() + child.first);
-            for (std::size_t offset = 0; offset < sizeof(WideNode<kWidth>); offset += 64) __builtin_prefetch(line + offset);
-          }
-          // Insertion by distance, the nearest on top; mostly there are one or two.
-          std::uint32_t place = stack_size++;
-          for (; place > bottom && stack[place - 1].t < entry[i]; --place) stack[place] = stack[place - 1];
-          stack[place] = {child, entry[i]};
-        } while (met != 0);
-        counter.reach_stack_depth(stack_size);
-        next = stack[--stack_size].child;
-        continue;
-      }
-    }
-    // A tie must still be visited: the primitive there may have a lower id.
-    do {
-      if (stack_size == 0) return;
-      --stack_size;
-    } while (stack[stack_size].t > t_max);
-    next = stack[stack_size].child;
-  }
+  walk_nodes(
+      bvh.nodes.data(), bvh.bounds, ray, t_max, [&](Child child) { return leaf(child.first, child.count); },
+      [&](Child child) { prefetch_leaf(child.first); }, counter);
 }
 
 }  // namespace grove
