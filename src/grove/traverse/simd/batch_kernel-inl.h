@@ -273,7 +273,7 @@ class BatchKernel {
     }
   }
 
-  void write(std::uint32_t index, const Hit& hit) {
+  void write(std::size_t index, const Hit& hit) {
     if constexpr (kAny) {
       query_.results[index] = hit ? 1 : 0;
     } else {
@@ -330,7 +330,7 @@ class BatchKernel {
   const std::ptrdiff_t blocks_offset_;  // from the nodes, in bytes
   std::uint32_t lists_[4][kSlots];
   std::uint32_t count_[4] = {};
-  std::uint32_t next_ray_ = 0;
+  std::size_t next_ray_ = 0;
 };
 
 }  // namespace HWY_NAMESPACE
