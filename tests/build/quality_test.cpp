@@ -9,6 +9,7 @@
 #include "build/threads.h"
 #include "grove/build/bottom_up/lbvh.h"
 #include "grove/build/passes/collapse.h"
+#include "grove/build/passes/rebound.h"
 #include "grove/build/quality/measure_quality.h"
 #include "grove/build/spatial_splits.h"
 #include "grove/geometry/user_geometry.h"
@@ -80,6 +81,49 @@ TEST(EndPointOverlap, NoneOfASphereIsCountedWhereItIsHeld) {
   const auto overlap = measure_quality(bvh, spheres).end_point_overlap;
   ASSERT_TRUE(overlap);
   EXPECT_NEAR(overlap->value, 0.25 * CostModel{}.intersection, 1e-4);
+}
+
+// Two small triangles in a sphere each, of which the second reaches over the first triangle but not over its own node's sphere everywhere.
+TEST(EndPointOverlap, OtherVolumesCountWhereAllAboveContainTheEnd) {
+  const TriangleMesh mesh({{0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {4, 0, 0}, {4, 1, 0}, {4, 0, 1}}, {{0, 1, 2}, {3, 4, 5}, {3, 4, 5}});
+  const auto sphere = [](float x, float radius, std::uint32_t first, std::uint32_t count, bool is_leaf) {
+    return VolumeNode<BoundingSphere>{{{x, 0, 0}, radius}, first, count, is_leaf ? 1U : 0U};
+  };
+  VolumeBvh<BoundingSphere> bvh;
+  bvh.references.assign({0, 1, 2});
+  bvh.bounds = {{0, 0, 0}, {4, 1, 1}};
+  bvh.depth = 2;
+  const CostModel model{.traversal = 5.0, .intersection = 3.0};
+  const auto overlap = [&] { return measure_quality(bvh, mesh, {.cost = model, .sample_count = 3000}).end_point_overlap->value; };
+  // The node above triangles 1 and 2 is apart from triangle 0, its second leaf reaches all over it.
+  bvh.nodes.assign(
+      {sphere(2, 9, 1, 2, false), sphere(0, 2, 0, 1, true), sphere(4, 2, 3, 2, false), sphere(4, 2, 1, 1, true), sphere(4, 9, 2, 1, true)});
+  ASSERT_EQ(bvh.validate(3), "");
+  EXPECT_DOUBLE_EQ(overlap(), 3.0 * 2.0 / 3.0) << "triangles 1 and 2, each in the other's leaf";
+  bvh.nodes[2].volume.radius = 9;
+  EXPECT_DOUBLE_EQ(overlap(), (5.0 + 3.0) / 3.0 + 3.0 * 2.0 / 3.0) << "besides triangle 0 in the node and one leaf";
+}
+
+// Rods side by side along a diagonal: turned boxes are apart where axis-aligned ones are not, and balls are worst.
+TEST(EndPointOverlap, TellsVolumesApart) {
+  std::vector<Vec3> vertices;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    const Vec3 start(0.1F * static_cast<float>(i), -0.1F * static_cast<float>(i), 0);
+    vertices.insert(vertices.end(), {start, start + Vec3(8, 8, 8), start + Vec3(8.02F, 8, 8)});
+    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const TriangleMesh mesh(std::move(vertices), std::move(triangles));
+  const Bvh2 bvh = build_top_down(list_references(mesh), {.leaf_size = 1});
+  const auto hulls = list_hulls(mesh, bvh.references);
+  const CollapseSettings settings{.arity = 2, .leaf_size = 1};
+  const double boxes = measure_quality(bvh, mesh).end_point_overlap->value;
+  const double oriented_boxes = measure_quality(rebound<OrientedBox>(bvh, hulls, settings), mesh).end_point_overlap->value;
+  const StructureQuality spheres = measure_quality(rebound<BoundingSphere>(bvh, hulls, settings), mesh);
+  EXPECT_LT(oriented_boxes, 0.1 * boxes);
+  EXPECT_GT(spheres.end_point_overlap->value, boxes);
+  EXPECT_FALSE(spheres.sibling_overlap);
+  EXPECT_EQ(spheres.duplication, 1.0);
 }
 
 // A divided primitive is held by every node that has a piece of it, and by none of the others.

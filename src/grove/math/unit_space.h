@@ -27,7 +27,8 @@ struct UnitSpace {
     if (longest > 0.0) scale = std::ldexp(1.0, -std::ilogb(longest));
   }
 
-  [[nodiscard]] glm::dvec3 to_unit(const Vec3& point) const { return (glm::dvec3(point) - centre) * scale; }
+  [[nodiscard]] glm::dvec3 to_unit(const glm::dvec3& point) const { return (point - centre) * scale; }
+  [[nodiscard]] glm::dvec3 to_unit(const Vec3& point) const { return to_unit(glm::dvec3(point)); }
 
   /// A box of the scene as a box of this space, rounded outward.
   [[nodiscard]] Box to_unit(const Box& box) const { return round_outward(to_unit(box.lower), to_unit(box.upper)); }

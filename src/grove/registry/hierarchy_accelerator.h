@@ -40,11 +40,7 @@ template <typename Hierarchy, Geometry G, typename Build>
     return statistics;
   };
   const auto view = [](const Structure& s, const std::function<void(const NodeView&)>& visit) { view_nodes(s.bvh, visit); };
-  const auto measure = [](const Structure& s, const G& set) {
-    // Overlap is told by boxes; those around other volumes say little about them.
-    if constexpr (BoxHierarchy<Hierarchy>) return measure_quality(s.bvh, set);
-    return StructureQuality{};
-  };
+  const auto measure = [](const Structure& s, const G& set) { return measure_quality(s.bvh, set); };
   HierarchyUpdater<Hierarchy, G, decltype(rebuild)> updater(rebuild, part_settings);
   return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), count, view, measure,
                                                               std::move(updater));

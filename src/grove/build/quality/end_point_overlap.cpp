@@ -17,14 +17,15 @@ bool contains(const Box& box, const glm::dvec3& point) {
          point.z <= box.upper.z;
 }
 
-// The times of all nodes that a ray which ends in the point enters for nothing.
-double wasted_time(const PreorderNodes& hierarchy, const SurfacePoint& point, const CostModel& model) {
+// The times of all nodes that a ray which ends in the point enters for nothing. `contains` tells whether a node's volume contains a point.
+template <typename Contains>
+double wasted_time(const PreorderNodes& hierarchy, const SurfacePoint& point, const CostModel& model, const Contains& contains) {
   const std::span<const PreorderNodes::Node> nodes = hierarchy.nodes();
   double time = 0.0;
   std::uint32_t wasted_end = 0;  // nodes before it lie below one that does not hold the primitive
   for (std::uint32_t i = 0; i < nodes.size();) {
     const PreorderNodes::Node& node = nodes[i];
-    if (!contains(node.box, point.position)) {
+    if (!contains(i, point.position)) {
       i = node.end;
       continue;
     }
@@ -35,10 +36,9 @@ double wasted_time(const PreorderNodes& hierarchy, const SurfacePoint& point, co
   return time;
 }
 
-}  // namespace
-
-std::optional<SampledFigure> end_point_overlap(const PreorderNodes& hierarchy, std::span<const SurfacePoint> points,
-                                               const CostModel& model) {
+template <typename Contains>
+std::optional<SampledFigure> mean_wasted_time(const PreorderNodes& hierarchy, std::span<const SurfacePoint> points, const CostModel& model,
+                                              const Contains& contains) {
   if (points.empty()) return std::nullopt;
   struct Sums {
     double times = 0.0;
@@ -49,7 +49,7 @@ std::optional<SampledFigure> end_point_overlap(const PreorderNodes& hierarchy, s
     Sums sums;
     double previous = 0.0;
     for (std::size_t i = first; i < last; ++i) {
-      const double time = wasted_time(hierarchy, points[i], model);
+      const double time = wasted_time(hierarchy, points[i], model, contains);
       sums.times += time;
       if (i % 2 == 1) sums.squared_differences += (time - previous) * (time - previous);
       previous = time;
@@ -65,5 +65,25 @@ std::optional<SampledFigure> end_point_overlap(const PreorderNodes& hierarchy, s
   const auto count = static_cast<double>(points.size());
   return SampledFigure{all.times / count, std::sqrt(all.squared_differences) / count, points.size()};
 }
+
+}  // namespace
+
+std::optional<SampledFigure> end_point_overlap(const PreorderNodes& hierarchy, std::span<const SurfacePoint> points,
+                                               const CostModel& model) {
+  return mean_wasted_time(hierarchy, points, model,
+                          [&](std::uint32_t node, const glm::dvec3& point) { return contains(hierarchy.nodes()[node].box, point); });
+}
+
+template <BoundingVolume V>
+std::optional<SampledFigure> end_point_overlap(const PreorderNodes& hierarchy, std::span<const V> volumes,
+                                               std::span<const SurfacePoint> points, const CostModel& model) {
+  return mean_wasted_time(hierarchy, points, model,
+                          [&](std::uint32_t node, const glm::dvec3& point) { return volumes[node].contains(point); });
+}
+
+template std::optional<SampledFigure> end_point_overlap(const PreorderNodes&, std::span<const OrientedBox>, std::span<const SurfacePoint>,
+                                                        const CostModel&);
+template std::optional<SampledFigure> end_point_overlap(const PreorderNodes&, std::span<const BoundingSphere>,
+                                                        std::span<const SurfacePoint>, const CostModel&);
 
 }  // namespace grove

@@ -16,6 +16,9 @@
 #include "grove/build/quality/preorder_nodes.h"
 #include "grove/build/quality/structure_quality.h"
 #include "grove/build/quality/surface_points.h"
+#include "grove/math/bounding_sphere.h"
+#include "grove/math/bounding_volume.h"
+#include "grove/math/oriented_box.h"
 
 namespace grove {
 
@@ -25,5 +28,16 @@ namespace grove {
 /// without points. Parallel; the same for any number of threads. O(points * nodes that contain one).
 [[nodiscard]] std::optional<SampledFigure> end_point_overlap(const PreorderNodes& hierarchy, std::span<const SurfacePoint> points,
                                                              const CostModel& model);
+
+/// The same where other volumes than boxes bound the nodes: volumes[i] is that of node i, and the points are given in the space of the volumes.
+/// A node counts where all those above it contain the point too, as otherwise no ray comes to it: of other volumes a child may stick out of its parent.
+template <BoundingVolume V>
+[[nodiscard]] std::optional<SampledFigure> end_point_overlap(const PreorderNodes& hierarchy, std::span<const V> volumes,
+                                                             std::span<const SurfacePoint> points, const CostModel& model);
+
+extern template std::optional<SampledFigure> end_point_overlap(const PreorderNodes&, std::span<const OrientedBox>,
+                                                               std::span<const SurfacePoint>, const CostModel&);
+extern template std::optional<SampledFigure> end_point_overlap(const PreorderNodes&, std::span<const BoundingSphere>,
+                                                               std::span<const SurfacePoint>, const CostModel&);
 
 }  // namespace grove

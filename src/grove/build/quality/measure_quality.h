@@ -1,5 +1,6 @@
 #pragma once
 
+#include "grove/accel/volume_bvh.h"
 #include "grove/build/quality/end_point_overlap.h"
 #include "grove/build/quality/sibling_overlap.h"
 
@@ -20,10 +21,26 @@ template <typename Hierarchy, Geometry G>
   const PreorderNodes nodes(hierarchy, geometry.size());
   StructureQuality quality;
   quality.sibling_overlap = sibling_overlap(nodes);
-  if (nodes.reference_count() > 0)
-    quality.duplication = static_cast<double>(nodes.reference_count()) / static_cast<double>(nodes.referenced_primitive_count());
+  quality.duplication = nodes.duplication();
   if constexpr (SampledGeometry<G>)
     quality.end_point_overlap = end_point_overlap(nodes, sample_surface(geometry, settings.sample_count, settings.seed), settings.cost);
+  return quality;
+}
+
+/// The same for other volumes than boxes. Sibling overlap is missing: it is told by boxes, and those around other volumes say little about them.
+template <BoundingVolume V, Geometry G>
+[[nodiscard]] StructureQuality measure_quality(const VolumeBvh<V>& hierarchy, const G& geometry, const QualitySettings& settings = {}) {
+  const PreorderNodes nodes(hierarchy, geometry.size());
+  StructureQuality quality;
+  quality.duplication = nodes.duplication();
+  if constexpr (SampledGeometry<G>) {
+    std::vector<V> volumes;
+    volumes.reserve(nodes.nodes().size());
+    hierarchy.visit_nodes([&](const VolumeNode<V>& node, std::uint32_t /*depth*/) { volumes.push_back(node.volume); });
+    std::vector<SurfacePoint> points = sample_surface(geometry, settings.sample_count, settings.seed);
+    for (SurfacePoint& point : points) point.position = hierarchy.space.to_unit(point.position);
+    quality.end_point_overlap = end_point_overlap<V>(nodes, volumes, points, settings.cost);
+  }
   return quality;
 }
 

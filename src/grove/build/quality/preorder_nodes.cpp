@@ -34,6 +34,11 @@ std::size_t PreorderNodes::referenced_primitive_count() const {
   return count;
 }
 
+std::optional<double> PreorderNodes::duplication() const {
+  if (references_.empty()) return std::nullopt;
+  return static_cast<double>(references_.size()) / static_cast<double>(referenced_primitive_count());
+}
+
 bool PreorderNodes::holds(const Node& node, std::uint32_t primitive) const {
   const std::uint32_t* const last = places_.data() + first_place_[primitive + 1];
   const std::uint32_t* const place = std::lower_bound(places_.data() + first_place_[primitive], last, node.first_reference);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,8 @@ class PreorderNodes {
 
   /// How many primitives are referenced at all.
   [[nodiscard]] std::size_t referenced_primitive_count() const;
+  /// References over primitives that are referenced; nothing without any.
+  [[nodiscard]] std::optional<double> duplication() const;
   /// Whether any leaf of the subtree names the primitive. O(log of how often the primitive is referenced).
   [[nodiscard]] bool holds(const Node& node, std::uint32_t primitive) const;
 
