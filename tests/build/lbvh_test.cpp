@@ -27,8 +27,8 @@ void expect_splits_where_codes_differ(const ReferenceList& list, std::size_t pri
   const Bvh2 bvh = build_lbvh(list, {.leaf_size = 1});
   ASSERT_EQ(bvh.validate(primitive_count), "");
   const MortonOrder order = sort_by_morton_code(list);
-  ASSERT_EQ(bvh.references.size(), order.references.size());
-  for (std::size_t i = 0; i < order.references.size(); ++i) ASSERT_EQ(bvh.references[i], order.references[i].primitive());
+  ASSERT_EQ(bvh.references.size(), order.indices.size());
+  for (std::size_t i = 0; i < order.indices.size(); ++i) ASSERT_EQ(bvh.references[i], list.references[order.indices[i]].primitive());
   const PreorderNodes hierarchy(bvh, primitive_count);
   for (std::uint32_t i = 0; i < hierarchy.nodes().size(); ++i) {
     const PreorderNodes::Node& node = hierarchy.nodes()[i];

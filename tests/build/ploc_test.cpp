@@ -42,7 +42,7 @@ struct Cluster {
 // Rounds of joining as the paper has them, one thing after another, until at most `most` clusters are left.
 std::vector<Cluster> agglomerate(const ReferenceList& list, std::size_t radius, std::size_t most) {
   std::vector<Cluster> clusters;
-  for (const PrimitiveReference& reference : sort_by_morton_code(list).references)
+  for (const PrimitiveReference& reference : gather(list, sort_by_morton_code(list)))
     clusters.push_back({reference.box().box(), {reference.primitive()}});
   while (clusters.size() > most) {
     std::vector<Box> boxes;

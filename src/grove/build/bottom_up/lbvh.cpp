@@ -18,8 +18,12 @@ namespace {
 // node before the last one, so that they end up in depth-first order.
 class Sweep {
  public:
-  Sweep(const MortonOrder& order, const SubtreeCost& subtree_cost, std::uint32_t* ids)
-      : references_(order.references.data()), codes_(order.codes.data()), subtree_cost_(subtree_cost), ids_(ids) {}
+  Sweep(const ReferenceList& list, const MortonOrder& order, const SubtreeCost& subtree_cost, std::uint32_t* ids)
+      : references_(list.references.data()),
+        indices_(order.indices.data()),
+        codes_(order.codes.data()),
+        subtree_cost_(subtree_cost),
+        ids_(ids) {}
 
   HierarchyPart build(std::uint32_t first, std::uint32_t count, Box4& bounds) {
     nodes_.resize(count);
@@ -34,6 +38,8 @@ class Sweep {
     int waiting_count = 0;
     std::uint64_t difference_after = std::numeric_limits<std::uint64_t>::max();
     for (std::uint32_t end = first + count; end > first;) {
+      // References are fetched where they stand, as each is needed once; neighbours in the order lie anywhere in memory.
+      __builtin_prefetch(references_ + indices_[end - 1 > first + kAhead ? end - 1 - kAhead : first]);
       const std::uint32_t begin = start_of_equal_codes(first, end);
       Subtree subtree = build_equal(begin, end - begin);
       const std::uint64_t difference = begin > first ? codes_[begin] ^ codes_[begin - 1] : std::numeric_limits<std::uint64_t>::max();
@@ -68,7 +74,7 @@ class Sweep {
 
   Subtree build_equal(std::uint32_t first, std::uint32_t count) {
     if (count == 1) {
-      const PrimitiveReference& reference = references_[first];
+      const PrimitiveReference& reference = references_[indices_[first]];
       ids_[first] = reference.primitive();
       const Box4 box = reference.box();
       return {box, {first, 1}, subtree_cost_.of_reference(box), first, 1, 0, next_};
@@ -112,7 +118,10 @@ class Sweep {
     return part;
   }
 
+  static constexpr std::uint32_t kAhead = 16;
+
   const PrimitiveReference* references_;
+  const std::uint32_t* indices_;
   const std::uint64_t* codes_;
   const SubtreeCost& subtree_cost_;
   std::uint32_t* ids_;
@@ -122,11 +131,11 @@ class Sweep {
 
 class LinearBuilder {
  public:
-  LinearBuilder(const MortonOrder& order, const SubtreeCost& subtree_cost, std::uint32_t* ids)
-      : order_(order), subtree_cost_(subtree_cost), ids_(ids) {}
+  LinearBuilder(const ReferenceList& list, const MortonOrder& order, const SubtreeCost& subtree_cost, std::uint32_t* ids)
+      : list_(list), order_(order), subtree_cost_(subtree_cost), ids_(ids) {}
 
   HierarchyPart build(std::uint32_t first, std::uint32_t count, Box4& bounds) const {
-    if (count <= kTaskSize) return Sweep(order_, subtree_cost_, ids_).build(first, count, bounds);
+    if (count <= kTaskSize) return Sweep(list_, order_, subtree_cost_, ids_).build(first, count, bounds);
     const std::uint32_t left = left_count(first, count);
     HierarchyPart part;
     parallel_invoke([&] { part.children[0] = std::make_unique<HierarchyPart>(build(first, left, part.bounds[0])); },
@@ -150,6 +159,7 @@ class LinearBuilder {
     return static_cast<std::uint32_t>(std::partition_point(codes, codes + count, lacks_bit) - codes);
   }
 
+  const ReferenceList& list_;
   const MortonOrder& order_;
   const SubtreeCost& subtree_cost_;
   std::uint32_t* ids_;
@@ -162,11 +172,11 @@ Bvh2 build_lbvh(const ReferenceList& list, const BottomUpSettings& settings) {
   const MortonOrder order = sort_by_morton_code(list);
   Bvh2 bvh;
   bvh.bounds = list.bounds;
-  bvh.references.resize(order.references.size());
+  bvh.references.resize(list.references.size());
   const SubtreeCost subtree_cost(settings, AreaMeasure(list.bounds).scale());
   Box4 unused;
   HierarchyPart root =
-      LinearBuilder(order, subtree_cost, bvh.references.data()).build(0, static_cast<std::uint32_t>(order.references.size()), unused);
+      LinearBuilder(list, order, subtree_cost, bvh.references.data()).build(0, static_cast<std::uint32_t>(list.references.size()), unused);
   assemble(root, bvh);
   return bvh;
 }

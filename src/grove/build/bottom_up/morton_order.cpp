@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <utility>
 
 #include "grove/base/parallel.h"
 #include "grove/build/reference_range.h"
@@ -54,18 +55,6 @@ bool are_crowded(std::size_t size, const CodeOf& code_of) {
   return 16 * total > size;
 }
 
-template <typename CodeOf, typename IndexOf>
-MortonOrder gather(const ReferenceList& list, const CodeOf& code_of, const IndexOf& index_of) {
-  MortonOrder order;
-  order.references.resize(list.references.size());
-  order.codes.resize(list.references.size());
-  parallel_for(list.references.size(), kGrain, [&](std::size_t i) {
-    order.references[i] = list.references[index_of(i)];
-    order.codes[i] = code_of(i);
-  });
-  return order;
-}
-
 }  // namespace
 
 MortonOrder sort_by_morton_code(const ReferenceList& list) {
@@ -81,7 +70,15 @@ MortonOrder sort_by_morton_code(const ReferenceList& list) {
     parallel_for(size, kGrain, [&](std::size_t i) { words[i] = grid.code(list.references[i].doubled_centre()) << index_bits | i; });
     radix_sort(words, index_bits, index_bits + 3 * bits);
     const auto code_of = [&](std::size_t i) { return words[i] >> index_bits; };
-    if (!are_crowded(size, code_of)) return gather(list, code_of, [&](std::size_t i) { return words[i] & index_mask; });
+    if (!are_crowded(size, code_of)) {
+      MortonOrder order{{}, HugeVector<std::uint32_t>(size)};
+      parallel_for(size, kGrain, [&](std::size_t i) {
+        order.indices[i] = static_cast<std::uint32_t>(words[i] & index_mask);
+        words[i] >>= index_bits;
+      });
+      order.codes = std::move(words);
+      return order;
+    }
   }
   const Grid grid(centres, kFineBits);
   HugeVector<KeyedIndex> items(size);
@@ -89,8 +86,18 @@ MortonOrder sort_by_morton_code(const ReferenceList& list) {
     items[i] = {grid.code(list.references[i].doubled_centre()), static_cast<std::uint32_t>(i)};
   });
   radix_sort(items, 3 * kFineBits);
-  return gather(
-      list, [&](std::size_t i) { return items[i].key; }, [&](std::size_t i) { return items[i].index; });
+  MortonOrder order{HugeVector<std::uint64_t>(size), HugeVector<std::uint32_t>(size)};
+  parallel_for(size, kGrain, [&](std::size_t i) {
+    order.codes[i] = items[i].key;
+    order.indices[i] = items[i].index;
+  });
+  return order;
+}
+
+HugeVector<PrimitiveReference> gather(const ReferenceList& list, const MortonOrder& order) {
+  HugeVector<PrimitiveReference> references(list.references.size());
+  parallel_for(references.size(), kGrain, [&](std::size_t i) { references[i] = list.references[order.indices[i]]; });
+  return references;
 }
 
 }  // namespace grove

@@ -8,14 +8,17 @@
 
 namespace grove {
 
-/// References in the order of the Morton codes of their centres, ties in the order of their ids.
+/// An order of references by the Morton codes of their centres, ties in the order of their ids.
 struct MortonOrder {
-  HugeVector<PrimitiveReference> references;
   HugeVector<std::uint64_t> codes;
+  HugeVector<std::uint32_t> indices;  ///< into the list that was sorted
 };
 
-/// Sorts references along the Morton curve over a cube around all centres. Codes have 36 bits; where more than
+/// Orders references along the Morton curve over a cube around all centres. Codes have 36 bits; where more than
 /// one in 16 references then shares its code with four others, the full 63. O(n), parallel, deterministic.
 [[nodiscard]] MortonOrder sort_by_morton_code(const ReferenceList& list);
+
+/// The references of `list` in that order. O(n), parallel.
+[[nodiscard]] HugeVector<PrimitiveReference> gather(const ReferenceList& list, const MortonOrder& order);
 
 }  // namespace grove

@@ -136,7 +136,7 @@ class Clustering {
 Bvh2 build_ploc(ReferenceList list, const BottomUpSettings& settings) {
   if (list.references.empty()) return {};
   const float area_scale = AreaMeasure(list.bounds).scale();
-  ClusterTree tree(sort_by_morton_code(list).references, SubtreeCost(settings, area_scale));
+  ClusterTree tree(gather(list, sort_by_morton_code(list)), SubtreeCost(settings, area_scale));
   Clustering(tree, settings.radius, area_scale, std::move(list.references)).run();
   return tree.hierarchy(list.bounds);
 }
