@@ -30,11 +30,11 @@ TEST(PackFast, KeepsEveryTriangleInABlockOfItsLeaf) {
     ASSERT_EQ(bvh.validate(count), "") << count;
     ASSERT_EQ(bvh.references, count);
     std::vector<std::uint32_t> ids;
-    for (const FastNode& node : bvh.nodes) {
+    for (const FastNode& node : bvh.nodes()) {
       for (int i = 0; i < FastNode::kWidth; ++i) {
         if (!node.has_child(i) || !node.child[i].is_leaf()) continue;
-        const TriangleBlock& block = bvh.blocks[node.child[i].block()];
-        for (std::uint32_t place = 0; place < node.child[i].count(); ++place) {
+        const TriangleBlock& block = bvh.block(node.child[i]);
+        for (std::uint32_t place = 0; place < block.count(); ++place) {
           const std::uint32_t id = block.primitive[place];
           ids.push_back(id);
           const Triangle& triangle = mesh.triangles()[id];
@@ -51,7 +51,7 @@ TEST(PackFast, KeepsEveryTriangleInABlockOfItsLeaf) {
 
 TEST(PackFast, OrdersChildrenFromFarToNear) {
   const FastBvh bvh = pack_fast(wide(testing::pebbles(3000, 0.05F, 2)), testing::pebbles(3000, 0.05F, 2));
-  for (const FastNode& node : bvh.nodes) {
+  for (const FastNode& node : bvh.nodes()) {
     for (unsigned octant = 0; octant < 8; ++octant) {
       float last = std::numeric_limits<float>::infinity();
       for (int k = 0; k < FastNode::kWidth; ++k) {
@@ -73,10 +73,10 @@ TEST(PackFast, DoesNotDependOnTheThreads) {
   const FastBvh one = testing::with_threads(1, [&] { return pack_fast(from, mesh); });
   for (const int threads : {2, 3, 8}) {
     const FastBvh many = testing::with_threads(threads, [&] { return pack_fast(from, mesh); });
-    ASSERT_EQ(many.nodes.size(), one.nodes.size());
-    ASSERT_EQ(many.blocks.size(), one.blocks.size());
-    EXPECT_EQ(std::memcmp(many.nodes.data(), one.nodes.data(), one.nodes.size() * sizeof(FastNode)), 0);
-    EXPECT_EQ(std::memcmp(many.blocks.data(), one.blocks.data(), one.blocks.size() * sizeof(TriangleBlock)), 0);
+    ASSERT_EQ(many.nodes().size(), one.nodes().size());
+    ASSERT_EQ(many.blocks().size(), one.blocks().size());
+    EXPECT_EQ(std::memcmp(many.nodes().data(), one.nodes().data(), one.nodes().size() * sizeof(FastNode)), 0);
+    EXPECT_EQ(std::memcmp(many.blocks().data(), one.blocks().data(), one.blocks().size() * sizeof(TriangleBlock)), 0);
   }
 }
 
@@ -88,9 +88,9 @@ TEST(PackFast, LeavesAreFullerWhereABlockTakesTheSameTime) {
   settings.arity = 8;
   settings.leaf_size = TriangleBlock::kWidth;
   settings.cost.intersection = 0.25;
-  const std::size_t one_by_one = pack_fast(widen<8>(binary, settings), mesh).blocks.size();
+  const std::size_t one_by_one = pack_fast(widen<8>(binary, settings), mesh).blocks().size();
   settings.block_size = TriangleBlock::kWidth;
-  EXPECT_LT(pack_fast(widen<8>(binary, settings), mesh).blocks.size(), one_by_one);
+  EXPECT_LT(pack_fast(widen<8>(binary, settings), mesh).blocks().size(), one_by_one);
 }
 
 }  // namespace

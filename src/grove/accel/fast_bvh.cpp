@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "grove/base/error.h"
+
 namespace grove {
 namespace {
 
@@ -16,11 +18,11 @@ class Validation {
   Validation(const FastBvh& bvh, std::size_t primitive_count)
       : bvh_(bvh),
         primitive_count_(primitive_count),
-        node_is_reached_(bvh.nodes.size(), false),
-        block_is_reached_(bvh.blocks.size(), false) {}
+        node_is_reached_(bvh.nodes().size(), false),
+        block_is_reached_(bvh.blocks().size(), false) {}
 
   std::string run() {
-    if (bvh_.nodes.empty()) return bvh_.blocks.empty() && bvh_.references == 0 ? "" : "triangles without a root";
+    if (bvh_.empty()) return bvh_.blocks().empty() && bvh_.references == 0 ? "" : "triangles without a root";
     check_node(0, bvh_.bounds, 0);
     if (error_.empty() && std::find(node_is_reached_.begin(), node_is_reached_.end(), false) != node_is_reached_.end())
       error_ = "a node is not reached";
@@ -33,9 +35,9 @@ class Validation {
 
  private:
   void check_node(std::uint32_t number, const Box& box, std::uint32_t depth) {
-    if (number >= bvh_.nodes.size() || node_is_reached_[number]) return fail("node", number, "is not there, or reached twice");
+    if (number >= bvh_.nodes().size() || node_is_reached_[number]) return fail("node", number, "is not there, or reached twice");
     node_is_reached_[number] = true;
-    const FastNode& node = bvh_.nodes[number];
+    const FastNode& node = bvh_.nodes()[number];
     for (const std::uint32_t order : node.order)
       if (!is_permutation(order)) return fail("node", number, "has an order that is none");
     for (int i = 0; i < FastNode::kWidth && error_.empty(); ++i) {
@@ -54,17 +56,19 @@ class Validation {
 
   void check_block(FastChild leaf, const Box& box, std::uint32_t depth) {
     depth_ = std::max(depth_, depth);
-    if (leaf.block() >= bvh_.blocks.size() || block_is_reached_[leaf.block()])
-      return fail("block", leaf.block(), "is not there, or reached twice");
-    block_is_reached_[leaf.block()] = true;
-    references_ += leaf.count();
-    const TriangleBlock& block = bvh_.blocks[leaf.block()];
-    for (std::uint32_t place = 0; place < leaf.count(); ++place) {
-      if (block.primitive[place] >= primitive_count_) return fail("block", leaf.block(), "names a primitive that is not there");
+    const std::size_t first = bvh_.nodes().size() * FastChild::kNodeUnits;
+    const std::size_t number = (leaf.unit() - first) / TriangleBlock::kUnits;
+    if (leaf.unit() < first || bvh_.leaf(number).unit() != leaf.unit() || number >= bvh_.blocks().size() || block_is_reached_[number])
+      return fail("block", leaf.unit(), "is not there, or reached twice");
+    block_is_reached_[number] = true;
+    const TriangleBlock& block = bvh_.block(leaf);
+    references_ += block.count();
+    for (std::uint32_t place = 0; place < TriangleBlock::kWidth; ++place) {
+      if (block.primitive[place] >= primitive_count_) return fail("block", leaf.unit(), "names a primitive that is not there");
       Box triangle;
       for (int corner = 0; corner < 3; ++corner)
         triangle.grow(Vec3(block.corners[0][corner][place], block.corners[1][corner][place], block.corners[2][corner][place]));
-      if (box.intersection(triangle).is_empty()) return fail("block", leaf.block(), "has a triangle outside of its box");
+      if (box.intersection(triangle).is_empty()) return fail("block", leaf.unit(), "has a triangle outside of its box");
     }
   }
 
@@ -82,6 +86,13 @@ class Validation {
 };
 
 }  // namespace
+
+FastBvh::FastBvh(std::size_t node_count, std::size_t block_count) : node_count_(node_count), block_count_(block_count) {
+  const std::size_t size = first_block() + block_count * TriangleBlock::kUnits;
+  if (size > FastChild::kMostUnits)
+    throw Error("the fast path holds up to 32 GiB of nodes and triangles; divide the scene into instances, or use 'bvh'");
+  units_.resize(size);
+}
 
 std::string FastBvh::validate(std::size_t primitive_count) const {
   return Validation(*this, primitive_count).run();

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,22 +11,28 @@
 
 namespace grove {
 
-/// What a child of a FastNode is, in one word: a node by its number, or one block of triangles by its number and how many it holds.
+/// The step of addresses in a FastBvh: nodes and blocks of triangles begin at multiples of it.
+struct alignas(32) FastUnit {
+  std::byte bytes[32];
+};
+
+/// What a child of a FastNode is, in one word: a node or a block of triangles, and where it lies in the memory of the hierarchy. So a kernel finds
+/// both by the same arithmetic.
 class FastChild {
  public:
   FastChild() = default;
 
-  [[nodiscard]] static FastChild node(std::uint32_t number) { return FastChild(number); }
-  /// A block of 1 to 4 triangles.
-  [[nodiscard]] static FastChild leaf(std::uint32_t block, std::uint32_t count) { return FastChild(kLeaf | block << 2 | (count - 1)); }
+  [[nodiscard]] static FastChild node(std::uint32_t number) { return FastChild(number * kNodeUnits); }
+  /// The block that begins at a unit.
+  [[nodiscard]] static FastChild leaf(std::uint32_t unit) { return FastChild(kLeaf | unit); }
 
   [[nodiscard]] bool is_leaf() const { return (word_ & kLeaf) != 0; }
-  [[nodiscard]] std::uint32_t node() const { return word_; }
-  [[nodiscard]] std::uint32_t block() const { return (word_ & ~kLeaf) >> 2; }
-  [[nodiscard]] std::uint32_t count() const { return (word_ & 3) + 1; }
+  /// The number of a node.
+  [[nodiscard]] std::uint32_t node() const { return word_ / kNodeUnits; }
+  [[nodiscard]] std::uint32_t unit() const { return word_ & (kMostUnits - 1); }
 
-  /// Of blocks, and of nodes.
-  static constexpr std::uint32_t kMostBlocks = std::uint32_t{1} << 28;
+  static constexpr std::uint32_t kNodeUnits = 8;
+  static constexpr std::uint32_t kMostUnits = std::uint32_t{1} << 30;
   static constexpr std::uint32_t kLeaf = 0x80000000U;
 
  private:
@@ -55,34 +63,75 @@ struct alignas(64) FastNode {
 
 static_assert(sizeof(FastNode) == 256);
 
-/// Up to four triangles by axis, corner and place; the same triangle may stand in other blocks. Unused places hold zeros. 160 bytes.
+static_assert(sizeof(FastNode) == FastChild::kNodeUnits * sizeof(FastUnit));
+
+/// Up to four different triangles by axis, corner and place; the same triangle may stand in other blocks. Unused places repeat the first, which
+/// no query can tell: the same hit twice is one. 160 bytes.
 struct alignas(32) TriangleBlock {
   static constexpr int kWidth = 4;
+  static constexpr std::uint32_t kUnits = 5;
 
   float corners[3][3][kWidth];
   std::uint32_t primitive[kWidth];
+
+  /// How many triangles there are, 1 to 4.
+  [[nodiscard]] std::uint32_t count() const {
+    std::uint32_t count = 1;
+    for (int place = 1; place < kWidth; ++place) count += primitive[place] != primitive[0] ? 1 : 0;
+    return count;
+  }
 };
 
-static_assert(sizeof(TriangleBlock) == 160);
+static_assert(sizeof(TriangleBlock) == TriangleBlock::kUnits * sizeof(FastUnit));
 
 /// The hierarchy of the fast path, as plain data: wide nodes over blocks of triangles, without a way back to the mesh. Node 0 is the root
-/// and there whenever a triangle is; children have higher numbers than their parents. Blocks stand in the order of the leaves.
-struct FastBvh {
-  HugeVector<FastNode> nodes;
-  HugeVector<TriangleBlock> blocks;
+/// and there whenever a triangle is; children have higher numbers than their parents. All nodes come before all blocks, which stand in the order of
+/// the leaves.
+class FastBvh {
+ public:
   Box bounds;
   std::uint32_t depth = 0;       ///< edges from the root to the deepest leaf
   std::uint32_t references = 0;  ///< triangles in all blocks
 
-  [[nodiscard]] std::size_t memory() const { return nodes.size() * sizeof(FastNode) + blocks.size() * sizeof(TriangleBlock); }
+  FastBvh() = default;
+  /// Room for so many nodes and blocks, which are not initialised. Throws Error where there are more than FastChild::kMostUnits units.
+  FastBvh(std::size_t node_count, std::size_t block_count);
+
+  [[nodiscard]] bool empty() const { return node_count_ == 0; }
+  [[nodiscard]] std::span<FastNode> nodes() { return {reinterpret_cast<FastNode*>(units_.data()), node_count_}; }
+  [[nodiscard]] std::span<const FastNode> nodes() const { return {reinterpret_cast<const FastNode*>(units_.data()), node_count_}; }
+  [[nodiscard]] std::span<TriangleBlock> blocks() {
+    return {reinterpret_cast<TriangleBlock*>(units_.data() + first_block()), block_count_};
+  }
+  [[nodiscard]] std::span<const TriangleBlock> blocks() const {
+    return {reinterpret_cast<const TriangleBlock*>(units_.data() + first_block()), block_count_};
+  }
+  [[nodiscard]] const TriangleBlock& block(FastChild leaf) const {
+    return *reinterpret_cast<const TriangleBlock*>(units_.data() + leaf.unit());
+  }
+  /// The leaf that block number `block` is.
+  [[nodiscard]] FastChild leaf(std::size_t block) const {
+    return FastChild::leaf(static_cast<std::uint32_t>(first_block() + block * TriangleBlock::kUnits));
+  }
+  /// What the places of nodes and blocks are counted from.
+  [[nodiscard]] const FastUnit* units() const { return units_.data(); }
+
+  [[nodiscard]] std::size_t memory() const { return units_.size() * sizeof(FastUnit); }
 
   /// The first broken invariant in words, or an empty string: each child's box inside its parent's and its triangles inside it, each node and block
   /// reached once, orders permutations, ids below `primitive_count`, depth and references as found. O(nodes + references).
   [[nodiscard]] std::string validate(std::size_t primitive_count) const;
 
-  /// Calls visit(box, depth, block, count) for each node and leaf in depth-first order, parents first; count is 0 for an interior node.
+  /// Calls visit(box, depth, unit, count) for each node and leaf in depth-first order, parents first; count is 0 for an interior node.
   template <typename Visitor>
   void visit(const Visitor& visitor) const;
+
+ private:
+  [[nodiscard]] std::size_t first_block() const { return node_count_ * FastChild::kNodeUnits; }
+
+  HugeVector<FastUnit> units_;
+  std::size_t node_count_ = 0;
+  std::size_t block_count_ = 0;
 };
 
 template <typename Visitor>
@@ -92,15 +141,15 @@ void FastBvh::visit(const Visitor& visitor) const {
     std::uint32_t depth;
     FastChild child;
   };
-  if (nodes.empty()) return;
+  if (empty()) return;
   std::vector<Pending> stack{{bounds, 0, FastChild::node(0)}};
   while (!stack.empty()) {
     const Pending top = stack.back();
     stack.pop_back();
     const bool is_leaf = top.child.is_leaf();
-    visitor(top.box, top.depth, is_leaf ? top.child.block() : top.child.node(), is_leaf ? top.child.count() : 0);
+    visitor(top.box, top.depth, top.child.unit(), is_leaf ? block(top.child).count() : 0);
     if (is_leaf) continue;
-    const FastNode& node = nodes[top.child.node()];
+    const FastNode& node = nodes()[top.child.node()];
     for (int i = FastNode::kWidth - 1; i >= 0; --i)
       if (node.has_child(i)) stack.push_back({node.child_box(i), top.depth + 1, node.child[i]});
   }

@@ -11,7 +11,7 @@
 namespace grove {
 
 struct Bvh2;
-struct FastBvh;
+class FastBvh;
 struct KdTree;
 template <int kWidth>
 struct WideBvh;

@@ -30,13 +30,11 @@ double largest_coordinate(const DVec3& p0, const DVec3& p1, const DVec3& p2) {
 }
 
 // The ray against the triangle without the rounding of the shear: the distance (times the largest component of the direction) where it
-// passes the triangle, or NaN where it passes outside or doubles do not suffice to tell.
-double exact_depth(const WatertightRay& ray, const DVec3& p0, const DVec3& p1, const DVec3& p2, double tolerance) {
-  const double shear_x = static_cast<double>(ray.ray.direction[ray.kx]) / ray.ray.direction[ray.kz];
-  const double shear_y = static_cast<double>(ray.ray.direction[ray.ky]) / ray.ray.direction[ray.kz];
-  const DVec3 z(p0[ray.kz], p1[ray.kz], p2[ray.kz]);
-  const DVec3 x = DVec3(p0[ray.kx], p1[ray.kx], p2[ray.kx]) - shear_x * z;
-  const DVec3 y = DVec3(p0[ray.ky], p1[ray.ky], p2[ray.ky]) - shear_y * z;
+// passes the triangle, or NaN where it passes outside or doubles do not suffice to tell. All along kx, ky and kz.
+double exact_depth(const DVec3& direction, const DVec3& p0, const DVec3& p1, const DVec3& p2, double tolerance) {
+  const DVec3 z(p0.z, p1.z, p2.z);
+  const DVec3 x = DVec3(p0.x, p1.x, p2.x) - direction.x / direction.z * z;
+  const DVec3 y = DVec3(p0.y, p1.y, p2.y) - direction.y / direction.z * z;
   const DVec3 edges = edge_weights(x, y);
   const double sum = edges.x + edges.y + edges.z;
   const DVec3 weights = edges / sum;
@@ -78,13 +76,15 @@ bool watertight::test_edges_in_double(const ShearedCorners& sheared, Edges& edge
 }
 
 float watertight::hit_distance(const WatertightRay& ray, const TriangleCorners& corners, const ShearedCorners& sheared) {
-  const DVec3 origin(ray.ray.origin);
-  const DVec3 direction(ray.ray.direction);
-  const DVec3 p0 = DVec3(corners.corner(0)) - origin;
-  const DVec3 p1 = DVec3(corners.corner(1)) - origin;
-  const DVec3 p2 = DVec3(corners.corner(2)) - origin;
+  // Along kx, ky and kz: the order in which sums are rounded is that of the wide kernels, which have the axes like this.
+  const auto in_order = [&](const Vec3& v) { return DVec3(v[ray.kx], v[ray.ky], v[ray.kz]); };
+  const DVec3 origin = in_order(ray.ray.origin);
+  const DVec3 direction = in_order(ray.ray.direction);
+  const DVec3 p0 = in_order(corners.corner(0)) - origin;
+  const DVec3 p1 = in_order(corners.corner(1)) - origin;
+  const DVec3 p2 = in_order(corners.corner(2)) - origin;
   const DVec3 normal = glm::cross(p1 - p0, p2 - p0);
-  const double forward = direction[ray.kz];
+  const double forward = direction.z;
   const double plane_depth = glm::dot(normal, p0) / glm::dot(normal, direction) * forward;
 
   // The depth of the point of the triangle that the edge tests found, which is near the ray whatever the angle: in double the edge
@@ -95,7 +95,7 @@ float watertight::hit_distance(const WatertightRay& ray, const TriangleCorners& 
   if (std::fabs(plane_depth - edge_depth) <= tolerance) return static_cast<float>(plane_depth / forward);
 
   // Almost edge-on: the rounding of the shear, sideways, has become a long way along the plane.
-  double depth = exact_depth(ray, p0, p1, p2, tolerance);
+  double depth = exact_depth(direction, p0, p1, p2, tolerance);
   if (!(std::fabs(depth) < kInfinity)) {
     depth = edge_depth;
     if (plane_depth > edge_depth) depth = edge_depth + tolerance;

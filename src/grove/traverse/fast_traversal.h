@@ -35,24 +35,24 @@ namespace grove {
   return ~static_cast<unsigned>(four_lanes(outside)) & 0xfU;
 }
 
-/// Walks the blocks that the ray meets, near to far; otherwise as walk_nodes, of which leaf(block, count) is the leaf.
+/// Walks the blocks that the ray meets, near to far; otherwise as walk_nodes, of which leaf(block) is the leaf.
 template <typename LeafTest, typename C>
 void walk_blocks(const FastBvh& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, C& counter) {
-  if (bvh.nodes.empty()) return;
+  if (bvh.empty()) return;
   const auto prefetch = [&](FastChild child) {
-    const char* const line = reinterpret_cast<const char*>(bvh.blocks.data() + child.block());
+    const char* const line = reinterpret_cast<const char*>(bvh.units() + child.unit());
     for (std::size_t offset = 0; offset < sizeof(TriangleBlock); offset += 64) __builtin_prefetch(line + offset);
   };
   walk_nodes(
-      bvh.nodes.data(), bvh.bounds, ray, t_max, [&](FastChild child) { return leaf(bvh.blocks[child.block()], child.count()); }, prefetch,
-      counter);
+      bvh.nodes().data(), bvh.bounds, ray, t_max, [&](FastChild child) { return leaf(bvh.block(child)); }, prefetch, counter);
 }
 
 /// Closest hit. `hit.t` must start as the ray's t_max.
 template <typename C>
 void trace_closest(const FastBvh& bvh, const Ray& ray, Hit& hit, C& counter) {
   const WatertightRay prepared(ray);
-  const auto test_leaf = [&](const TriangleBlock& block, std::uint32_t count) {
+  const auto test_leaf = [&](const TriangleBlock& block) {
+    const std::uint32_t count = block.count();
     for (std::uint32_t place = 0; place < count; ++place) counter.test_primitive();
     for (unsigned left = inside_edges(block, prepared) & ((1U << count) - 1); left != 0; left &= left - 1) {
       const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
@@ -68,7 +68,8 @@ template <typename C>
 bool trace_any(const FastBvh& bvh, const Ray& ray, C& counter) {
   const WatertightRay prepared(ray);
   bool found = false;
-  const auto test_leaf = [&](const TriangleBlock& block, std::uint32_t count) {
+  const auto test_leaf = [&](const TriangleBlock& block) {
+    const std::uint32_t count = block.count();
     for (std::uint32_t place = 0; place < count; ++place) counter.test_primitive();
     for (unsigned left = inside_edges(block, prepared) & ((1U << count) - 1); left != 0 && !found; left &= left - 1) {
       const auto place = static_cast<std::uint32_t>(std::countr_zero(left));

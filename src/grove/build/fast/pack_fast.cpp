@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "grove/base/check.h"
@@ -32,15 +34,20 @@ std::uint32_t order_for(const WideNode<8>& node, unsigned octant) {
   return order;
 }
 
-TriangleBlock pack_block(const std::uint32_t* references, std::uint32_t count, const TriangleMesh& mesh) {
-  TriangleBlock block{};
-  for (std::uint32_t place = 0; place < count; ++place) {
-    const Triangle& triangle = mesh.triangles()[references[place]];
+TriangleBlock pack_block(std::span<const std::uint32_t> references, const TriangleMesh& mesh) {
+  TriangleBlock block;
+  int places = 0;
+  const auto put = [&](std::uint32_t primitive) {
+    const Triangle& triangle = mesh.triangles()[primitive];
     const std::uint32_t vertices[3] = {triangle.x, triangle.y, triangle.z};
     for (int corner = 0; corner < 3; ++corner)
-      for (int axis = 0; axis < 3; ++axis) block.corners[axis][corner][place] = mesh.vertices()[vertices[corner]][axis];
-    block.primitive[place] = references[place];
-  }
+      for (int axis = 0; axis < 3; ++axis) block.corners[axis][corner][places] = mesh.vertices()[vertices[corner]][axis];
+    block.primitive[places++] = primitive;
+  };
+  // Leaves that a collapse has joined may name a primitive more than once.
+  for (const std::uint32_t primitive : references)
+    if (std::find(block.primitive, block.primitive + places, primitive) == block.primitive + places) put(primitive);
+  while (places < TriangleBlock::kWidth) put(references[0]);
   return block;
 }
 
@@ -49,20 +56,8 @@ class Packing {
   Packing(const WideBvh<8>& bvh, const TriangleMesh& mesh) : bvh_(bvh), mesh_(mesh) {}
 
   FastBvh run() {
+    if (!bvh_.references.empty()) bvh_.nodes.empty() ? pack_single_leaf() : pack_nodes();
     result_.bounds = bvh_.bounds;
-    result_.depth = bvh_.depth;
-    result_.references = static_cast<std::uint32_t>(bvh_.references.size());
-    if (bvh_.references.empty()) return std::move(result_);
-    if (bvh_.nodes.empty()) {
-      pack_single_leaf();
-      return std::move(result_);
-    }
-    count_leaves();
-    result_.nodes.resize(bvh_.nodes.size());
-    parallel_chunks(bvh_.nodes.size(), kChunk, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-      std::uint32_t block = first_block_[chunk];
-      for (std::size_t i = first; i < last; ++i) pack_node(i, block);
-    });
     return std::move(result_);
   }
 
@@ -72,11 +67,29 @@ class Packing {
     const auto count = static_cast<std::uint32_t>(bvh_.references.size());
     WideNode<8> node = empty_node();
     node.set_child(0, bvh_.bounds, {0, count});
-    result_.nodes.resize(1);
-    result_.blocks.resize(1);
+    result_ = FastBvh(1, 1);
     result_.depth = 1;
-    std::uint32_t block = 0;
-    pack(node, result_.nodes[0], block);
+    std::size_t block = 0;
+    result_.references = pack(node, result_.nodes()[0], block);
+  }
+
+  void pack_nodes() {
+    const std::size_t size = bvh_.nodes.size();
+    std::vector<std::size_t> first_block((size + kChunk - 1) / kChunk, 0);
+    parallel_chunks(size, kChunk, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i)
+        for (const auto& child : bvh_.nodes[i].child) first_block[chunk] += child.count > 0 ? 1 : 0;
+    });
+    std::size_t block_count = 0;
+    for (std::size_t& first : first_block) block_count += std::exchange(first, block_count);
+    result_ = FastBvh(size, block_count);
+    result_.depth = bvh_.depth;
+    std::vector<std::uint32_t> references(first_block.size(), 0);
+    parallel_chunks(size, kChunk, [&](std::size_t chunk, std::size_t first, std::size_t last) {
+      std::size_t block = first_block[chunk];
+      for (std::size_t i = first; i < last; ++i) references[chunk] += pack(bvh_.nodes[i], result_.nodes()[i], block);
+    });
+    for (const std::uint32_t count : references) result_.references += count;
   }
 
   static WideNode<8> empty_node() {
@@ -85,22 +98,9 @@ class Packing {
     return node;
   }
 
-  // The number of the first block of each chunk of nodes.
-  void count_leaves() {
-    first_block_.assign((bvh_.nodes.size() + kChunk - 1) / kChunk, 0);
-    parallel_chunks(bvh_.nodes.size(), kChunk, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i)
-        for (int place = 0; place < 8; ++place) first_block_[chunk] += bvh_.nodes[i].child[place].count > 0 ? 1 : 0;
-    });
-    std::uint32_t total = 0;
-    for (std::uint32_t& first : first_block_) total += std::exchange(first, total);
-    GROVE_CHECK(total <= FastChild::kMostBlocks);
-    result_.blocks.resize(total);
-  }
-
-  void pack_node(std::size_t i, std::uint32_t& block) { pack(bvh_.nodes[i], result_.nodes[i], block); }
-
-  void pack(const WideNode<8>& from, FastNode& to, std::uint32_t& block) {
+  // Writes a node, and its leaves from block number `block` on. Returns how many triangles these hold.
+  std::uint32_t pack(const WideNode<8>& from, FastNode& to, std::size_t& block) {
+    std::uint32_t references = 0;
     std::copy_n(&from.planes[0][0][0], 3 * 2 * 8, &to.planes[0][0][0]);
     for (unsigned octant = 0; octant < 8; ++octant) to.order[octant] = order_for(from, octant);
     for (int place = 0; place < 8; ++place) {
@@ -110,15 +110,16 @@ class Packing {
         continue;
       }
       GROVE_ASSERT(count <= TriangleBlock::kWidth);
-      result_.blocks[block] = pack_block(bvh_.references.data() + first, count, mesh_);
-      to.child[place] = FastChild::leaf(block++, count);
+      result_.blocks()[block] = pack_block({bvh_.references.data() + first, count}, mesh_);
+      references += result_.blocks()[block].count();
+      to.child[place] = result_.leaf(block++);
     }
+    return references;
   }
 
   const WideBvh<8>& bvh_;
   const TriangleMesh& mesh_;
   FastBvh result_;
-  std::vector<std::uint32_t> first_block_;
 };
 
 }  // namespace

@@ -13,11 +13,13 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "grove/traverse/fast_traversal.h"
 #include "grove/traverse/simd/batch_slot.h"
 #include "grove/traverse/simd/block_test-inl.h"
 #include "grove/traverse/simd/compaction-inl.h"
+#include "grove/traverse/simd/ray_setup-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace grove {
@@ -29,66 +31,83 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <bool kAny, bool kCounts>
 class BatchKernel {
  public:
-  BatchKernel(const BatchQuery& query, BatchSlot* slots)
-      : query_(query),
-        bounds_(query.bvh.bounds),
-        slots_(slots),
-        nodes_(query.bvh.nodes.data()),
-        blocks_(query.bvh.blocks.data()),
-        blocks_offset_(static_cast<std::ptrdiff_t>(reinterpret_cast<std::uintptr_t>(blocks_) - reinterpret_cast<std::uintptr_t>(nodes_))) {}
+  BatchKernel(const BatchQuery& query, BatchMemory& memory)
+      : query_(query), setup_(query.bvh.bounds), memory_(memory), capacity_(memory.capacity()), units_(query.bvh.units()) {}
 
   void run() {
     for (std::uint32_t slot = 0; slot < kSlots; ++slot) refill(slot);
     // Slots at a node are stepped until most have come to a leaf; then all leaves are tested, one after another. So the code of each
     // stays in flight, and branches go the same way.
-    while (count_[at_node] + count_[at_leaf] > 0) {
-      const std::uint32_t few = (count_[at_node] + count_[at_leaf]) / 3;
-      while (count_[at_node] > few || (count_[at_node] > 0 && count_[at_leaf] == 0)) {
-        std::uint32_t stepping[kSlots];
-        const std::uint32_t stepping_count = take(at_node, stepping);
-        for (std::uint32_t i = 0; i < stepping_count; ++i) {
-          step(slots_[stepping[i]]);
-          enlist(stepping[i]);
-        }
+    while ((at_node_ | at_leaf_) != 0) {
+      const int few = std::popcount(at_node_ | at_leaf_) / 3;
+      while (std::popcount(at_node_) > few || (at_node_ != 0 && at_leaf_ == 0)) {
+        step_all();
         finish();
       }
-      std::uint32_t testing[kSlots];
-      const std::uint32_t testing_count = take(at_leaf, testing);
-      test_leaves(testing, testing_count);
+      test_leaves();
       finish();
     }
   }
 
  private:
-  // The two highest bits of a child's word.
-  enum Place : std::uint32_t { at_node = 0, at_leaf = 2, finished = 3 };
+  // Sets of slots, a bit for each. A list in memory would be written at places that depend on where rays go, and all loads behind would wait.
+  using SlotSet = std::uint32_t;
+  static_assert(kSlots <= 32);
 
-  std::uint32_t take(Place place, std::uint32_t* slots) {
-    const std::uint32_t count = count_[place];
-    std::memcpy(slots, lists_[place], count * sizeof *slots);
-    count_[place] = 0;
-    return count;
+  static std::uint32_t take_first(SlotSet& set) {
+    const auto first = static_cast<std::uint32_t>(std::countr_zero(set));
+    set &= set - 1;
+    return first;
   }
 
-  // Fetches what the slot goes to next, and notes it in the list for that.
-  HWY_INLINE void enlist(std::uint32_t number) {
-    const std::uint32_t word = slots_[number].next;
-    // Without a branch, which could not be foreseen: offsets from the nodes.
-    const std::ptrdiff_t node = std::ptrdiff_t{word} * static_cast<std::ptrdiff_t>(sizeof(FastNode));
-    const std::ptrdiff_t block = blocks_offset_ + std::ptrdiff_t{(word & ~kDone) >> 2} * static_cast<std::ptrdiff_t>(sizeof(TriangleBlock));
-    const std::ptrdiff_t is_leaf = -static_cast<std::ptrdiff_t>(word >> 31);
-    const char* const line = reinterpret_cast<const char*>(nodes_) + (node ^ ((node ^ block) & is_leaf));
+  // Where slots go next; kept in registers.
+  struct Sets {
+    SlotSet at_node = 0;
+    SlotSet at_leaf = 0;
+    SlotSet done = 0;
+  };
+
+  // Puts a slot into the set for where it goes next, and fetches that. Without a branch, which could not be foreseen.
+  HWY_INLINE void dispatch(std::uint32_t number, std::uint32_t word, Sets& next) {
+    const char* const line = &at<char>(word);
     __builtin_prefetch(line);
     __builtin_prefetch(line + 64);
     __builtin_prefetch(line + 128);
     __builtin_prefetch(line + 192);
-    const std::uint32_t place = word >> 30;
-    lists_[place][count_[place]++] = number;
+    const std::uint32_t is_no_node = word >> 31;
+    const std::uint32_t is_done = word >> 30 & 1U;
+    next.at_node |= (is_no_node ^ 1U) << number;
+    next.at_leaf |= (is_no_node ^ is_done) << number;
+    next.done |= is_done << number;
   }
 
-  // Steps through a node: pushes the children that are met, the nearest last, and takes the last.
+  void add(const Sets& next) {
+    at_node_ |= next.at_node;
+    at_leaf_ |= next.at_leaf;
+    done_ |= next.done;
+  }
+
+  HWY_INLINE void step_all() {
+    Sets next;
+    for (SlotSet stepping = std::exchange(at_node_, 0); stepping != 0;) {
+      const std::uint32_t number = take_first(stepping);
+      BatchSlot& slot = memory_.slot(number);
+      step(slot);
+      dispatch(number, slot.next, next);
+    }
+    add(next);
+  }
+
+  // Where a node or block lies: the highest two bits are shifted out.
+  template <typename T>
+  [[nodiscard]] HWY_INLINE const T& at(std::uint32_t word) const {
+    const std::size_t offset = std::size_t{word << 2} * (sizeof(FastUnit) / 4);
+    return *reinterpret_cast<const T*>(reinterpret_cast<const char*>(units_) + offset);
+  }
+
+  // Steps through a node: pushes the children that are met, and goes on to the nearest, or to what waits on the stack.
   HWY_INLINE void step(BatchSlot& slot) {
-    const FastNode& node = nodes_[slot.next];
+    const auto& node = at<FastNode>(slot.next);
     if constexpr (kCounts) ++query_.counts[slot.index].nodes_visited;
     const hn::CappedTag<float, FastNode::kWidth> d;
     if constexpr (hn::MaxLanes(d) == FastNode::kWidth) {
@@ -119,14 +138,14 @@ class BatchKernel {
   template <typename D, typename V = hn::Vec<D>>
   HWY_INLINE Interval<V> slabs(D d, const FastNode& node, const BatchSlot& slot, std::size_t first) {
     V near = hn::Set(d, slot.ray.t_min);
-    V far = hn::Set(d, slot.hit.t);
+    V far = hn::Set(d, slot.t);
     const float* const rows = &node.planes[0][0][0];
     for (int axis = 0; axis < 3; ++axis) {
       const V inverse = hn::Set(d, slot.ray.inverse[axis]);
-      const V near_planes = hn::LoadU(d, rows + slot.ray.planes[0][axis] + first);
-      const V far_planes = hn::LoadU(d, rows + slot.ray.planes[1][axis] + first);
-      near = hn::Max(near, hn::MulAdd(near_planes, inverse, hn::Set(d, slot.ray.offset[0][axis])));
-      far = hn::Min(far, hn::MulAdd(far_planes, inverse, hn::Set(d, slot.ray.offset[1][axis])));
+      const V near_planes = hn::LoadU(d, rows + slot.ray.rows.near[axis] + first);
+      const V far_planes = hn::LoadU(d, rows + slot.ray.rows.far[axis] + first);
+      near = hn::Max(near, hn::MulAdd(near_planes, inverse, hn::Set(d, slot.ray.near_offset[axis])));
+      far = hn::Min(far, hn::MulAdd(far_planes, inverse, hn::Set(d, slot.ray.far_offset[axis])));
     }
     return {near, far};
   }
@@ -135,129 +154,186 @@ class BatchKernel {
   HWY_INLINE void push_in_one(D d, const FastNode& node, BatchSlot& slot, V near, V far) {
     const hn::RebindToUnsigned<D> du;
     auto children = hn::LoadU(du, reinterpret_cast<const std::uint32_t*>(node.child));
-    auto met = hn::Le(near, far);
-    if constexpr (!kAny) {
+    std::uint32_t* const stack_child = slot.stack_child(capacity_);
+    const std::uint32_t size = slot.stack_size;
+    const std::uint32_t waiting = stack_child[size - 1];
+    std::uint32_t met = 0;
+    if constexpr (kAny) {
       // Any hit needs no order: it costs more than it saves.
-      const auto places = hn::And(hn::Set(du, node.order[slot.ray.octant]) >> hn::Mul(hn::Iota(du, 0), hn::Set(du, 3)), hn::Set(du, 7));
-      const auto order = hn::IndicesFromVec(d, places);
-      const V missed = hn::Set(d, std::numeric_limits<float>::infinity());
-      near = hn::TableLookupLanes(hn::IfThenElse(met, near, missed), order);
-      children = hn::TableLookupLanes(children, hn::IndicesFromVec(du, places));
-      met = hn::Lt(near, missed);
+      met = bits_of(d, hn::Le(near, far));
+      children = look_up(du, children, front_places(du, met));
+    } else {
+      const auto order = hn::Set(du, node.order[slot.ray.rows.octant]) >> hn::Mul(hn::Iota(du, 0), hn::Set(du, 3));
+      // The sign of the difference goes through the same order as the children. Unused places have a difference of minus infinity.
+      const V slack = look_up(d, hn::Sub(far, near), order);
+      met = ~bits_of(d, hn::Lt(slack, hn::Zero(d))) & 0xffU;
+      const auto places = look_up(du, order, front_places(du, met));
+      hn::StoreU(look_up(d, near, places), d, slot.stack_t() + size);
+      children = look_up(du, children, places);
     }
-    const Compaction<D> compaction(d, met);
-    if constexpr (!kAny) hn::StoreU(compaction(d, near), d, slot.stack_t + slot.stack_size);
-    hn::StoreU(compaction(du, children), du, slot.stack_child + slot.stack_size);
-    // The next is not read from the stack when it has just been pushed there: a narrow load would have to wait for the wide store.
-    const std::uint32_t count = compaction.count();
-    const std::uint32_t last = kHighestBit[compaction.bits()];
-    const std::uint32_t place = kAny ? last : node.order[slot.ray.octant] >> (3 * last) & 7U;
-    const std::uint32_t pushed = word_of(node.child[place]);
-    const std::uint32_t waiting = slot.stack_child[slot.stack_size - 1];
-    slot.next = count > 0 ? pushed : waiting;
-    slot.stack_size += count - 1;
+    hn::StoreU(children, du, stack_child + size);
+    // The last is taken from the register: reading it back would have to wait for the store.
+    const auto count = static_cast<std::uint32_t>(std::popcount(met));
+    const std::uint32_t last = hn::GetLane(look_up(du, children, hn::Set(du, count - 1)));
+    const std::uint32_t is_none = met - 1U >> 31;  // an arithmetic choice, as a branch could not be foreseen
+    slot.next = last ^ ((last ^ waiting) & (0U - is_none));
+    slot.stack_size = size + count - 1;
   }
 
   static std::uint32_t word_of(FastChild child) { return std::bit_cast<std::uint32_t>(child); }
 
   HWY_INLINE void push_one_by_one(const FastNode& node, BatchSlot& slot, const float* near, std::uint32_t met) {
-    const std::uint32_t order = node.order[slot.ray.octant];
+    const std::uint32_t order = node.order[slot.ray.rows.octant];
+    std::uint32_t* const stack_child = slot.stack_child(capacity_);
+    std::uint32_t size = slot.stack_size;
     for (int k = 0; k < FastNode::kWidth; ++k) {
       const std::uint32_t place = order >> (3 * k) & 7U;
-      slot.stack_t[slot.stack_size] = near[place];
-      slot.stack_child[slot.stack_size] = word_of(node.child[place]);
-      slot.stack_size += met >> place & 1U;
+      slot.stack_t()[size] = near[place];
+      stack_child[size] = word_of(node.child[place]);
+      size += met >> place & 1U;
     }
-    slot.next = slot.stack_child[--slot.stack_size];
+    slot.next = stack_child[--size];
+    slot.stack_size = size;
   }
 
   // Tests the leaves of all slots in a list: first which triangles may be hit at all, for all of them without a branch; then those that may.
-  HWY_INLINE void test_leaves(const std::uint32_t* numbers, std::uint32_t number_count) {
-    struct Candidates {
-      std::uint32_t slot;
-      std::uint32_t triangles;
-    };
-    Candidates candidates[kSlots];
-    std::uint32_t candidate_count = 0;
-    for (std::uint32_t i = 0; i < number_count; ++i) {
-      BatchSlot& slot = slots_[numbers[i]];
-      const std::uint32_t count = (slot.next & 3U) + 1;
+  HWY_INLINE void test_leaves() {
+    const SlotSet testing = std::exchange(at_leaf_, 0);
+    std::uint8_t possible[kSlots];
+    SlotSet settling = 0;
+    for (SlotSet left = testing; left != 0;) {
+      const std::uint32_t number = take_first(left);
+      BatchSlot& slot = memory_.slot(number);
+      const auto& block = at<TriangleBlock>(slot.next);
       if constexpr (kCounts) {
-        query_.counts[slot.index].primitives_tested += count;
+        query_.counts[slot.index].primitives_tested += block.count();
         ++query_.counts[slot.index].leaves_entered;
       }
-      const std::uint32_t triangles = filter_block(slot.ray, slot.hit.t, block_of(slot)) & ((1U << count) - 1);
-      candidates[candidate_count] = {numbers[i], triangles};
-      candidate_count += triangles != 0 ? 1 : 0;
-    }
-    for (std::uint32_t i = 0; i < candidate_count; ++i) settle(slots_[candidates[i].slot], candidates[i].triangles);
-    for (std::uint32_t i = 0; i < number_count; ++i) {
-      BatchSlot& slot = slots_[numbers[i]];
-      slot.next = slot.stack_child[--slot.stack_size];
-      enlist(numbers[i]);
-    }
-  }
-
-  [[nodiscard]] const TriangleBlock& block_of(const BatchSlot& slot) const { return blocks_[(slot.next & ~kDone) >> 2]; }
-
-  HWY_INLINE void settle(BatchSlot& slot, std::uint32_t candidates) {
-    const TriangleBlock& block = block_of(slot);
-    const BlockHits hits = test_block(slot.ray, block);
-    bool found = false;
-    for (std::uint32_t known = candidates & hits.known; known != 0; known &= known - 1) {
-      const auto place = static_cast<std::uint32_t>(std::countr_zero(known));
-      const float t = hits.t[place];
+      const BlockFilter filter = filter_block<kAny>(slot.ray, slot.t, block);
+      bool is_open = filter.possible != 0;
       if constexpr (kAny) {
-        found = found || (t >= slot.ray.t_min && t <= slot.hit.t && t < std::numeric_limits<float>::infinity());
-        continue;
+        // Whatever the distance is exactly, it is in range.
+        slot.primitive = filter.certain != 0 ? 0 : slot.primitive;
+        slot.stack_size = filter.certain != 0 ? 1 : slot.stack_size;
+        is_open = is_open && filter.certain == 0;
       }
-      if (!(t >= slot.ray.t_min && is_closer(t, block.primitive[place], slot.hit))) continue;
-      const float sum = hits.weight[0][place] + hits.weight[1][place] + hits.weight[2][place];
-      slot.hit.t = t;
-      slot.hit.u = hits.weight[1][place] / sum;
-      slot.hit.v = hits.weight[2][place] / sum;
-      slot.hit.primitive = block.primitive[place];
-      found = true;
+      possible[number] = static_cast<std::uint8_t>(filter.possible);
+      settling |= (is_open ? 1U : 0U) << number;
     }
-    for (std::uint32_t others = candidates & ~hits.known; others != 0; others &= others - 1)
-      found = test_alone(slot, block, static_cast<std::uint32_t>(std::countr_zero(others))) || found;
-    if (!found) return;
-    if constexpr (kAny) {
-      slot.hit.primitive = 0;
-      slot.stack_size = 1;
-    } else {
-      drop_what_is_farther(slot);
+    settle(settling, possible);
+    Sets next;
+    for (SlotSet left = testing; left != 0;) {
+      const std::uint32_t number = take_first(left);
+      BatchSlot& slot = memory_.slot(number);
+      slot.next = slot.stack_child(capacity_)[--slot.stack_size];
+      dispatch(number, slot.next, next);
+    }
+    add(next);
+  }
+
+  // Tests the possible triangles of slots, and shortens the stacks of those that are hit.
+  HWY_INLINE void settle(SlotSet settling, const std::uint8_t* possible) {
+    SlotSet hit = 0;
+    while (settling != 0) {
+      const std::uint32_t number = take_first(settling);
+      const BatchSlot& slot = memory_.slot(number);
+      for (std::uint32_t left = possible[number]; left != 0; left &= left - 1) {
+        candidates_.append(number, slot.ray, at<TriangleBlock>(slot.next), static_cast<std::uint32_t>(std::countr_zero(left)));
+        if (candidates_.is_full()) hit |= test_appended();
+      }
+    }
+    hit |= test_appended();
+    while (hit != 0) {
+      BatchSlot& slot = memory_.slot(take_first(hit));
+      if constexpr (kAny) {
+        slot.stack_size = 1;
+      } else {
+        drop_what_is_farther(slot);
+      }
     }
   }
 
-  HWY_NOINLINE static bool test_alone(BatchSlot& slot, const TriangleBlock& block, std::uint32_t place) {
+  // Returns whose hits are new.
+  HWY_INLINE SlotSet test_appended() {
+    test_candidates(candidates_);
+    SlotSet hit = 0;
+    for (std::size_t i = 0; i < candidates_.count; ++i) {
+      const std::uint32_t number = candidates_.slot[i];
+      BatchSlot& slot = memory_.slot(number);
+      const bool is_hit = (candidates_.known >> i & 1U) != 0 ? take_hit(slot, i) : test_alone(slot, candidates_.place[i]);
+      hit |= (is_hit ? 1U : 0U) << number;
+    }
+    candidates_.count = 0;
+    return hit;
+  }
+
+  HWY_INLINE bool take_hit(BatchSlot& slot, std::size_t i) {
+    const float t = candidates_.t[i];
+    if constexpr (kAny) {
+      if (!(t >= slot.ray.t_min && t <= slot.t && t < std::numeric_limits<float>::infinity())) return false;
+      slot.primitive = 0;
+      return true;
+    }
+    const std::uint32_t primitive = at<TriangleBlock>(slot.next).primitive[candidates_.place[i]];
+    if (!(t >= slot.ray.t_min && is_closer(t, primitive, hit_of(slot)))) return false;
+    const float sum = candidates_.weight[0][i] + candidates_.weight[1][i] + candidates_.weight[2][i];
+    slot.t = t;
+    slot.u = candidates_.weight[1][i] / sum;
+    slot.v = candidates_.weight[2][i] / sum;
+    slot.primitive = primitive;
+    return true;
+  }
+
+  HWY_NOINLINE bool test_alone(BatchSlot& slot, std::uint32_t place) const {
+    const auto& block = at<TriangleBlock>(slot.next);
     const WatertightRay ray = slot.ray.triangle_ray();
     const SingleTriangle triangle = triangle_in(block, place);
-    if constexpr (kAny) return occluded_watertight(ray, triangle.corners);
-    return intersect_watertight(ray, triangle.corners, &block.primitive[place], slot.hit);
+    if constexpr (kAny) {
+      if (!occluded_watertight(ray, triangle.corners)) return false;
+      slot.primitive = 0;
+      return true;
+    }
+    Hit hit = hit_of(slot);
+    if (!intersect_watertight(ray, triangle.corners, &block.primitive[place], hit)) return false;
+    slot.t = hit.t;
+    slot.u = hit.u;
+    slot.v = hit.v;
+    slot.primitive = hit.primitive;
+    return true;
+  }
+
+  static Hit hit_of(const BatchSlot& slot) {
+    Hit hit;
+    hit.t = slot.t;
+    hit.u = slot.u;
+    hit.v = slot.v;
+    hit.primitive = slot.primitive;
+    return hit;
   }
 
   // A tie must still be visited: the primitive there may have a lower id.
-  static void drop_what_is_farther(BatchSlot& slot) {
-    const hn::CappedTag<float, kSlack> d;
-    const hn::RebindToUnsigned<decltype(d)> du;
-    using Front = Compaction<hn::CappedTag<float, kSlack>>;
+  HWY_INLINE void drop_what_is_farther(BatchSlot& slot) {
+    float* const stack_t = slot.stack_t();
+    std::uint32_t* const stack_child = slot.stack_child(capacity_);
     const std::uint32_t size = slot.stack_size;
     std::uint32_t kept = 0;
-    if constexpr (Front::kIsThere) {
-      for (std::uint32_t i = 0; i < size; i += 8) {
-        const auto t = hn::LoadU(d, slot.stack_t + i);
-        const auto child = hn::LoadU(du, slot.stack_child + i);
-        const Front front(d, hn::And(hn::Le(t, hn::Set(d, slot.hit.t)), hn::FirstN(d, size - i)));
-        hn::StoreU(front(d, t), d, slot.stack_t + kept);
-        hn::StoreU(front(du, child), du, slot.stack_child + kept);
-        kept += front.count();
+    const hn::CappedTag<float, kSlack> d;
+    if constexpr (hn::MaxLanes(d) == kSlack) {
+      const hn::RebindToUnsigned<decltype(d)> du;
+      for (std::uint32_t i = 0; i < size; i += kSlack) {
+        const auto t = hn::LoadU(d, stack_t + i);
+        const auto child = hn::LoadU(du, stack_child + i);
+        const std::uint32_t near = bits_of(d, hn::And(hn::Le(t, hn::Set(d, slot.t)), hn::FirstN(d, size - i)));
+        const auto places = front_places(du, near);
+        hn::StoreU(look_up(d, t, places), d, stack_t + kept);
+        hn::StoreU(look_up(du, child, places), du, stack_child + kept);
+        kept += static_cast<std::uint32_t>(std::popcount(near));
       }
     } else {
       for (std::uint32_t i = 0; i < size; ++i) {
-        slot.stack_t[kept] = slot.stack_t[i];
-        slot.stack_child[kept] = slot.stack_child[i];
-        kept += slot.stack_t[i] <= slot.hit.t ? 1 : 0;
+        stack_t[kept] = stack_t[i];
+        stack_child[kept] = stack_child[i];
+        kept += stack_t[i] <= slot.t ? 1 : 0;
       }
     }
     slot.stack_size = kept;
@@ -265,11 +341,11 @@ class BatchKernel {
 
   // Writes results of finished rays and lets others take their slots.
   void finish() {
-    std::uint32_t done[kSlots];
-    const std::uint32_t done_count = take(Place::finished, done);
-    for (std::uint32_t i = 0; i < done_count; ++i) {
-      write(slots_[done[i]].index, slots_[done[i]].hit);
-      refill(done[i]);
+    for (SlotSet left = std::exchange(done_, 0); left != 0;) {
+      const std::uint32_t number = take_first(left);
+      const BatchSlot& slot = memory_.slot(number);
+      write(slot.index, hit_of(slot));
+      refill(number);
     }
   }
 
@@ -284,20 +360,24 @@ class BatchKernel {
 
   // Takes the next ray that needs the kernel, if there is one, and does those on the way that do not.
   void refill(std::uint32_t number) {
-    BatchSlot& slot = slots_[number];
+    BatchSlot& slot = memory_.slot(number);
     for (; next_ray_ < query_.count; ++next_ray_) {
       const Ray& ray = query_.rays[next_ray_];
+      if (next_ray_ % RaySetup::kCount == 0) setup_.prepare(&ray, std::min(RaySetup::kCount, query_.count - next_ray_));
       if constexpr (kCounts) query_.counts[next_ray_] = {};
-      if (!slot.ray.set(ray, bounds_) || query_.bvh.nodes.empty()) {
+      if (!setup_.is_regular(next_ray_ % RaySetup::kCount) || query_.bvh.empty()) {
         trace_alone(ray);
         continue;
       }
-      slot.hit = Hit{};
-      slot.hit.t = ray.t_max;
+      setup_.copy(next_ray_ % RaySetup::kCount, slot.ray);
+      slot.t = ray.t_max;
+      slot.u = 0.0F;
+      slot.v = 0.0F;
+      slot.primitive = kInvalidId;
       slot.index = next_ray_++;
       slot.stack_size = 1;
       slot.next = 0;
-      lists_[at_node][count_[at_node]++] = number;
+      at_node_ |= SlotSet{1} << number;
       return;
     }
   }
@@ -323,13 +403,14 @@ class BatchKernel {
   }
 
   const BatchQuery& query_;
-  const BatchBounds bounds_;
-  BatchSlot* const slots_;
-  const FastNode* const nodes_;
-  const TriangleBlock* const blocks_;
-  const std::ptrdiff_t blocks_offset_;  // from the nodes, in bytes
-  std::uint32_t lists_[4][kSlots];
-  std::uint32_t count_[4] = {};
+  RaySetup setup_;
+  BatchMemory& memory_;
+  const std::size_t capacity_;
+  const FastUnit* const units_;
+  HitCandidates candidates_;
+  SlotSet at_node_ = 0;
+  SlotSet at_leaf_ = 0;
+  SlotSet done_ = 0;
   std::size_t next_ray_ = 0;
 };
 

@@ -1,6 +1,6 @@
-// The watertight test of watertight_triangle.h for one ray and the four triangles of a block, with the same operations in the same order, so that its
-// results are the same, bit for bit. What is rare is left to that test: edge functions that come out zero or out of range, and distances that need
-// its second look. Included once for each instruction set.
+// The watertight test of watertight_triangle.h in two parts: which of a block's four triangles a ray may hit, and where rays hit such triangles, several
+// pairs at once. The operations are the same in the same order, so that results are the same, bit for bit. What is rare is left to that test: edge
+// functions that come out zero or out of range, and distances that need its second look. Included once for each instruction set.
 
 #if defined(GROVE_BLOCK_TEST_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef GROVE_BLOCK_TEST_INL_H
@@ -14,6 +14,7 @@
 #include "grove/accel/fast_bvh.h"
 #include "grove/traverse/simd/batch_ray.h"
 #include "grove/traverse/simd/compaction-inl.h"
+#include "grove/traverse/simd/hit_candidates.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace grove {
@@ -33,9 +34,9 @@ struct ShearedTriangles {
 
   HWY_INLINE ShearedTriangles(D d, const BatchRay& ray, const TriangleBlock& block, std::size_t first) {
     for (int corner = 0; corner < 3; ++corner) {
-      z[corner] = hn::Sub(hn::LoadU(d, block.corners[ray.kz][corner] + first), hn::Set(d, ray.origin_k[2]));
-      const V along_x = hn::Sub(hn::LoadU(d, block.corners[ray.kx][corner] + first), hn::Set(d, ray.origin_k[0]));
-      const V along_y = hn::Sub(hn::LoadU(d, block.corners[ray.ky][corner] + first), hn::Set(d, ray.origin_k[1]));
+      z[corner] = hn::Add(hn::LoadU(d, block.corners[ray.axes.kz][corner] + first), hn::Set(d, ray.minus_origin_k[2]));
+      const V along_x = hn::Add(hn::LoadU(d, block.corners[ray.axes.kx][corner] + first), hn::Set(d, ray.minus_origin_k[0]));
+      const V along_y = hn::Add(hn::LoadU(d, block.corners[ray.axes.ky][corner] + first), hn::Set(d, ray.minus_origin_k[1]));
       x[corner] = hn::Sub(along_x, hn::Mul(hn::Set(d, ray.shear_x), z[corner]));
       y[corner] = hn::Sub(along_y, hn::Mul(hn::Set(d, ray.shear_y), z[corner]));
     }
@@ -45,96 +46,118 @@ struct ShearedTriangles {
   }
 };
 
+// The edge function of corners i and j, of sheared corners by axis.
+template <typename V>
+HWY_INLINE V edge_function(const V sheared[3][3], int i, int j) {
+  return hn::Sub(hn::Mul(sheared[0][i], sheared[1][j]), hn::Mul(sheared[1][i], sheared[0][j]));
+}
+
 template <typename V>
 HWY_INLINE V dot3(const V a[3], const V b[3]) {
   return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
 }
 
-// Bit i: triangle i may be hit: the ray does not pass outside of an edge, nor farther away than t_max.
-HWY_INLINE std::uint32_t filter_block(const BatchRay& ray, float t_max, const TriangleBlock& block) {
+// Bit i of `possible`: triangle i may be hit, as the ray does not pass outside of an edge, nor is the triangle too far away or too near. Bit i of
+// `certain`: it is hit, wherever between its corners. (That is told for any hit only.)
+struct BlockFilter {
+  std::uint32_t possible = 0;
+  std::uint32_t certain = 0;
+};
+
+template <bool kTellCertain>
+HWY_INLINE BlockFilter filter_block(const BatchRay& ray, float t_max, const TriangleBlock& block) {
   const hn::CappedTag<float, TriangleBlock::kWidth> d;
   using V = hn::Vec<decltype(d)>;
-  std::uint32_t missed = 0;
+  BlockFilter filter;
   for (std::size_t first = 0; first < TriangleBlock::kWidth; first += hn::MaxLanes(d)) {
     const ShearedTriangles<decltype(d)> triangles(d, ray, block, first);
     const V inverse_z = hn::Set(d, ray.inverse_z);
     const V t[3] = {hn::Mul(triangles.z[0], inverse_z), hn::Mul(triangles.z[1], inverse_z), hn::Mul(triangles.z[2], inverse_z)};
     const V zero = hn::Zero(d);
+    const V pad = hn::Set(d, ray.depth_pad);
+    const V least_t = hn::Sub(hn::Min(hn::Min(t[0], t[1]), t[2]), pad);
+    const V most_t = hn::Add(hn::Max(hn::Max(t[0], t[1]), t[2]), pad);
     const V least_edge = hn::Min(hn::Min(triangles.edge[0], triangles.edge[1]), triangles.edge[2]);
     const V most_edge = hn::Max(hn::Max(triangles.edge[0], triangles.edge[1]), triangles.edge[2]);
-    const V pad = hn::Set(d, ray.depth_pad);
-    const auto too_far = hn::Gt(hn::Sub(hn::Min(hn::Min(t[0], t[1]), t[2]), pad), hn::Set(d, t_max));
-    const auto too_near = hn::Lt(hn::Add(hn::Max(hn::Max(t[0], t[1]), t[2]), pad), hn::Set(d, ray.t_min));
-    const auto outside = hn::And(hn::Lt(least_edge, zero), hn::Gt(most_edge, zero));
-    missed |= bits_of(d, hn::Or(outside, hn::Or(too_far, too_near))) << first;
+    const V farthest = hn::Set(d, t_max);
+    const V nearest = hn::Set(d, ray.t_min);
+    const auto in_range = hn::And(hn::Le(least_t, farthest), hn::Ge(most_t, nearest));
+    const auto inside = hn::Or(hn::Ge(least_edge, zero), hn::Le(most_edge, zero));
+    filter.possible |= bits_of(d, hn::And(in_range, inside)) << first;
+    if constexpr (kTellCertain) {
+      const auto surely_in_range = hn::And(hn::Ge(least_t, nearest), hn::Le(most_t, farthest));
+      // Far from where the watertight test would ask doubles.
+      const V tiny = hn::Set(d, 1e-30F);
+      const auto surely_inside = hn::Or(hn::Gt(least_edge, tiny), hn::Lt(most_edge, hn::Neg(tiny)));
+      const auto finite = hn::Lt(most_t, hn::Set(d, std::numeric_limits<float>::infinity()));
+      filter.certain |= bits_of(d, hn::And(hn::And(surely_in_range, finite), surely_inside)) << first;
+    }
   }
-  return ~missed & ((1U << TriangleBlock::kWidth) - 1);
+  return filter;
 }
 
-// Distances and weights of the corners, for the triangles whose bit in `known` is set.
-struct BlockHits {
-  HWY_ALIGN float t[TriangleBlock::kWidth];
-  HWY_ALIGN float weight[3][TriangleBlock::kWidth];
-  std::uint32_t known;
-};
-
-// For triangles whose edge functions do not differ in sign.
-HWY_INLINE BlockHits test_block(const BatchRay& ray, const TriangleBlock& block) {
-  const hn::CappedTag<double, TriangleBlock::kWidth> dd;
+// Tests all candidates: those whose edge functions do not differ in sign. Writes distances, weights of the corners, and which are known; the others are
+// left to the test of single triangles.
+HWY_INLINE void test_candidates(HitCandidates& candidates) {
+  candidates.fill_up();
+  const hn::CappedTag<double, HitCandidates::kGroup> dd;
   const hn::Rebind<float, decltype(dd)> df;
   using D = hn::Vec<decltype(dd)>;
   using F = hn::Vec<decltype(df)>;
-  BlockHits hits;
-  hits.known = 0;
-  for (std::size_t first = 0; first < TriangleBlock::kWidth; first += hn::MaxLanes(dd)) {
-    const ShearedTriangles<decltype(df)> triangles(df, ray, block, first);
-    const F weights[3] = {hn::Abs(triangles.edge[0]), hn::Abs(triangles.edge[1]), hn::Abs(triangles.edge[2])};
-    const F magnitude = hn::Abs(hn::Add(hn::Add(triangles.edge[0], triangles.edge[1]), triangles.edge[2]));
+  for (std::size_t first = 0; first < candidates.count; first += hn::MaxLanes(dd)) {
+    const auto load = [&](const float* lanes) { return hn::LoadU(df, lanes + first); };
+    const F minus_origin[3] = {load(candidates.minus_origin[0]), load(candidates.minus_origin[1]), load(candidates.minus_origin[2])};
+    const F shear[2] = {load(candidates.shear[0]), load(candidates.shear[1])};
+    // By axis and corner: relative to the origin in doubles, and as the ray sees them in floats.
+    D corner[3][3];
+    F sheared[3][3];
+    for (int i = 0; i < 3; ++i) {
+      F along[3];
+      for (int axis = 0; axis < 3; ++axis) {
+        const F coordinate = load(candidates.corner[axis][i]);
+        along[axis] = hn::Add(coordinate, minus_origin[axis]);
+        corner[axis][i] = hn::Add(hn::PromoteTo(dd, coordinate), hn::PromoteTo(dd, minus_origin[axis]));
+      }
+      sheared[2][i] = along[2];
+      sheared[0][i] = hn::Sub(along[0], hn::Mul(shear[0], along[2]));
+      sheared[1][i] = hn::Sub(along[1], hn::Mul(shear[1], along[2]));
+    }
+    const F edge[3] = {edge_function(sheared, 2, 1), edge_function(sheared, 0, 2), edge_function(sheared, 1, 0)};
+    const F weights[3] = {hn::Abs(edge[0]), hn::Abs(edge[1]), hn::Abs(edge[2])};
+    const F magnitude = hn::Abs(hn::Add(hn::Add(edge[0], edge[1]), edge[2]));
     const F least_weight = hn::Min(hn::Min(weights[0], weights[1]), weights[2]);
     const auto in_range =
         hn::And(hn::Ge(magnitude, hn::Set(df, 1e-30F)), hn::Le(magnitude, hn::Set(df, std::numeric_limits<float>::max())));
     const auto is_regular = hn::And(hn::Gt(least_weight, hn::Zero(df)), in_range);
 
-    D corner[3][3];  // by corner and axis, relative to the origin
     D largest = hn::Zero(dd);
-    for (int axis = 0; axis < 3; ++axis) {
-      const D origin = hn::Set(dd, static_cast<double>(ray.ray().origin[axis]));
-      for (int i = 0; i < 3; ++i) {
-        corner[i][axis] = hn::Sub(hn::PromoteTo(dd, hn::LoadU(df, block.corners[axis][i] + first)), origin);
-        largest = hn::Max(largest, hn::Abs(corner[i][axis]));
-      }
-    }
     D a[3];
     D b[3];
     D direction[3];
     for (int axis = 0; axis < 3; ++axis) {
-      a[axis] = hn::Sub(corner[1][axis], corner[0][axis]);
-      b[axis] = hn::Sub(corner[2][axis], corner[0][axis]);
-      direction[axis] = hn::Set(dd, static_cast<double>(ray.ray().direction[axis]));
+      for (int i = 0; i < 3; ++i) largest = hn::Max(largest, hn::Abs(corner[axis][i]));
+      a[axis] = hn::Sub(corner[axis][1], corner[axis][0]);
+      b[axis] = hn::Sub(corner[axis][2], corner[axis][0]);
+      direction[axis] = hn::PromoteTo(dd, load(candidates.direction[axis]));
     }
+    const D first_corner[3] = {corner[0][0], corner[1][0], corner[2][0]};
     const D normal[3] = {hn::Sub(hn::Mul(a[1], b[2]), hn::Mul(b[1], a[2])), hn::Sub(hn::Mul(a[2], b[0]), hn::Mul(b[2], a[0])),
                          hn::Sub(hn::Mul(a[0], b[1]), hn::Mul(b[0], a[1]))};
-    const D forward = hn::Set(dd, static_cast<double>(ray.ray().direction[static_cast<int>(ray.kz)]));
-    const D plane_depth = hn::Mul(hn::Div(dot3(normal, corner[0]), dot3(normal, direction)), forward);
+    const D plane_depth = hn::Mul(hn::Div(dot3(normal, first_corner), dot3(normal, direction)), direction[2]);
 
-    D x[3];
-    D y[3];
-    D z[3];
-    for (int i = 0; i < 3; ++i) {
-      x[i] = hn::PromoteTo(dd, triangles.x[i]);
-      y[i] = hn::PromoteTo(dd, triangles.y[i]);
-      z[i] = hn::PromoteTo(dd, triangles.z[i]);
-    }
-    const D edges[3] = {hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(x[1], y[2])), hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(x[2], y[0])),
-                        hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(x[0], y[1]))};
-    const D edge_depth = hn::Div(dot3(edges, z), hn::Add(hn::Add(edges[0], edges[1]), edges[2]));
+    D exact[3][3];
+    for (int axis = 0; axis < 3; ++axis)
+      for (int i = 0; i < 3; ++i) exact[axis][i] = hn::PromoteTo(dd, sheared[axis][i]);
+    const auto weight = [&](int i, int j) { return hn::Sub(hn::Mul(exact[0][i], exact[1][j]), hn::Mul(exact[0][j], exact[1][i])); };
+    const D edges[3] = {weight(2, 1), weight(0, 2), weight(1, 0)};
+    const D edge_depth = hn::Div(dot3(edges, exact[2]), hn::Add(hn::Add(edges[0], edges[1]), edges[2]));
     const auto agree = hn::Le(hn::Abs(hn::Sub(plane_depth, edge_depth)), hn::Mul(hn::Set(dd, watertight::kDepthTolerance), largest));
 
-    hn::StoreU(hn::DemoteTo(df, hn::Div(plane_depth, forward)), df, hits.t + first);
-    for (int i = 0; i < 3; ++i) hn::StoreU(weights[i], df, hits.weight[i] + first);
-    hits.known |= (bits_of(df, is_regular) & bits_of(dd, agree)) << first;
+    hn::StoreU(hn::DemoteTo(df, hn::Div(plane_depth, direction[2])), df, candidates.t + first);
+    for (int i = 0; i < 3; ++i) hn::StoreU(weights[i], df, candidates.weight[i] + first);
+    const std::uint64_t known = bits_of(df, is_regular) & bits_of(dd, agree);
+    candidates.known = first == 0 ? known : candidates.known | known << first;
   }
-  return hits;
 }
 
 }  // namespace HWY_NAMESPACE

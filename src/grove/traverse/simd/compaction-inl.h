@@ -1,4 +1,4 @@
-// Moving the lanes of a register that a mask has together. Included once for each instruction set.
+// Moving lanes of a register about. Included once for each instruction set.
 
 #if defined(GROVE_COMPACTION_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef GROVE_COMPACTION_INL_H
@@ -9,7 +9,6 @@
 
 #include <hwy/highway.h>
 
-#include <bit>
 #include <cstdint>
 
 #include "grove/traverse/simd/bit_tables.h"
@@ -27,29 +26,22 @@ HWY_INLINE std::uint32_t bits_of(D d, M mask) {
   return bits[0] & ((1U << hn::MaxLanes(D())) - 1);
 }
 
-// Moves the lanes of eight that a mask has to the front. By a table on every instruction set: where there is an instruction for it, it is not faster.
-template <typename D>
-class Compaction {
- public:
-  static constexpr bool kIsThere = hn::MaxLanes(D()) == 8;
+// The lanes of eight whose bits are set, then the others. By a table on every instruction set: where there is an instruction for it, it is not faster.
+template <typename DU>
+HWY_INLINE hn::Vec<DU> front_places(DU du, std::uint32_t bits) {
+  const hn::Rebind<std::uint8_t, DU> d8;
+  return hn::PromoteTo(du, hn::LoadU(d8, kFrontPlaces[bits].data()));
+}
 
-  HWY_INLINE Compaction(D d, hn::Mask<D> mask) : bits_(bits_of(d, mask)) {
-    const hn::Rebind<std::uint8_t, D> d8;
-    places_ = hn::PromoteTo(hn::RebindToUnsigned<D>(), hn::LoadU(d8, kFrontPlaces[bits_].data()));
-  }
-
-  [[nodiscard]] HWY_INLINE std::uint32_t bits() const { return bits_; }
-  [[nodiscard]] HWY_INLINE std::uint32_t count() const { return static_cast<std::uint32_t>(std::popcount(bits_)); }
-
-  template <typename DV, typename V>
-  HWY_INLINE V operator()(DV d, V v) const {
-    return hn::TableLookupLanes(v, hn::IndicesFromVec(d, places_));
-  }
-
- private:
-  std::uint32_t bits_;
-  hn::Vec<hn::RebindToUnsigned<D>> places_;
-};
+// Lane i of the result is the lane of `v` that the low three bits of places[i] name. (The instruction looks at no others; checks of debug builds do.)
+template <typename D, typename V, typename P>
+HWY_INLINE V look_up(D d, V v, P places) {
+  static_assert(hn::MaxLanes(D()) == 8);
+#if HWY_IS_DEBUG_BUILD
+  places = hn::And(places, hn::Set(hn::RebindToUnsigned<D>(), 7));
+#endif
+  return hn::TableLookupLanes(v, hn::IndicesFromVec(d, places));
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace grove

@@ -15,11 +15,11 @@ namespace grove {
 namespace HWY_NAMESPACE {
 namespace {
 
-void run_batch(const BatchQuery& query, BatchSlot* slots) {
+void run_batch(const BatchQuery& query, BatchMemory& memory) {
   if (query.results != nullptr) {
-    query.counts != nullptr ? BatchKernel<true, true>(query, slots).run() : BatchKernel<true, false>(query, slots).run();
+    query.counts != nullptr ? BatchKernel<true, true>(query, memory).run() : BatchKernel<true, false>(query, memory).run();
   } else {
-    query.counts != nullptr ? BatchKernel<false, true>(query, slots).run() : BatchKernel<false, false>(query, slots).run();
+    query.counts != nullptr ? BatchKernel<false, true>(query, memory).run() : BatchKernel<false, false>(query, memory).run();
   }
 }
 
@@ -37,7 +37,7 @@ HWY_EXPORT(run_batch);
 void run(const BatchQuery& query) {
   if (query.count == 0) return;
   BatchMemory memory(query.bvh);
-  HWY_DYNAMIC_DISPATCH(run_batch)(query, memory.slots());
+  HWY_DYNAMIC_DISPATCH(run_batch)(query, memory);
 }
 
 }  // namespace
