@@ -60,42 +60,32 @@ class BatchKernel {
     return first;
   }
 
-  // Where slots go next; kept in registers.
-  struct Sets {
-    SlotSet at_node = 0;
-    SlotSet at_leaf = 0;
-    SlotSet done = 0;
-  };
-
-  // Puts a slot into the set for where it goes next, and fetches that. Without a branch, which could not be foreseen.
-  HWY_INLINE void dispatch(std::uint32_t number, std::uint32_t word, Sets& next) {
-    const char* const line = &at<char>(word);
-    __builtin_prefetch(line);
-    __builtin_prefetch(line + 64);
-    __builtin_prefetch(line + 128);
-    __builtin_prefetch(line + 192);
-    const std::uint32_t is_no_node = word >> 31;
-    const std::uint32_t is_done = word >> 30 & 1U;
-    next.at_node |= (is_no_node ^ 1U) << number;
-    next.at_leaf |= (is_no_node ^ is_done) << number;
-    next.done |= is_done << number;
-  }
-
-  void add(const Sets& next) {
-    at_node_ |= next.at_node;
-    at_leaf_ |= next.at_leaf;
-    done_ |= next.done;
+  // Takes what is on top of the stacks of slots, fetches it, and puts the slots into the sets for that. Without a branch, which could not be foreseen.
+  HWY_INLINE void advance(SlotSet slots) {
+    SlotSet leave_nodes = 0;
+    SlotSet leave = 0;
+    for (SlotSet left = slots; left != 0;) {
+      const std::uint32_t number = take_first(left);
+      BatchSlot& slot = memory_.slot(number);
+      const std::uint32_t word = slot.stack_child(capacity_)[--slot.stack_size];
+      slot.next = word;
+      const char* const line = &at<char>(word);
+      __builtin_prefetch(line);
+      __builtin_prefetch(line + 64);
+      __builtin_prefetch(line + 128);
+      __builtin_prefetch(line + 192);
+      leave_nodes |= (word >> 31) << number;
+      leave |= (word >> 30 & 1U) << number;
+    }
+    at_node_ |= slots & ~leave_nodes;
+    at_leaf_ |= leave_nodes & ~leave;
+    done_ |= leave;
   }
 
   HWY_INLINE void step_all() {
-    Sets next;
-    for (SlotSet stepping = std::exchange(at_node_, 0); stepping != 0;) {
-      const std::uint32_t number = take_first(stepping);
-      BatchSlot& slot = memory_.slot(number);
-      step(slot);
-      dispatch(number, slot.next, next);
-    }
-    add(next);
+    const SlotSet stepping = std::exchange(at_node_, 0);
+    for (SlotSet left = stepping; left != 0;) step(memory_.slot(take_first(left)));
+    advance(stepping);
   }
 
   // Where a node or block lies: the highest two bits are shifted out.
@@ -105,7 +95,7 @@ class BatchKernel {
     return *reinterpret_cast<const T*>(reinterpret_cast<const char*>(units_) + offset);
   }
 
-  // Steps through a node: pushes the children that are met, and goes on to the nearest, or to what waits on the stack.
+  // Steps through a node: pushes the children that are met, the nearest last.
   HWY_INLINE void step(BatchSlot& slot) {
     const auto& node = at<FastNode>(slot.next);
     if constexpr (kCounts) ++query_.counts[slot.index].nodes_visited;
@@ -125,7 +115,7 @@ class BatchKernel {
     }
     if constexpr (kCounts) {
       std::uint32_t& deepest = query_.counts[slot.index].stack_depth;
-      deepest = std::max(deepest, slot.stack_size);
+      deepest = std::max(deepest, slot.stack_size - 1);
     }
   }
 
@@ -153,15 +143,14 @@ class BatchKernel {
   template <typename D, typename V>
   HWY_INLINE void push_in_one(D d, const FastNode& node, BatchSlot& slot, V near, V far) {
     const hn::RebindToUnsigned<D> du;
-    auto children = hn::LoadU(du, reinterpret_cast<const std::uint32_t*>(node.child));
+    const auto children = hn::LoadU(du, reinterpret_cast<const std::uint32_t*>(node.child));
     std::uint32_t* const stack_child = slot.stack_child(capacity_);
     const std::uint32_t size = slot.stack_size;
-    const std::uint32_t waiting = stack_child[size - 1];
     std::uint32_t met = 0;
     if constexpr (kAny) {
       // Any hit needs no order: it costs more than it saves.
       met = bits_of(d, hn::Le(near, far));
-      children = look_up(du, children, front_places(du, met));
+      hn::StoreU(look_up(du, children, front_places(du, met)), du, stack_child + size);
     } else {
       const auto order = hn::Set(du, node.order[slot.ray.rows.octant]) >> hn::Mul(hn::Iota(du, 0), hn::Set(du, 3));
       // The sign of the difference goes through the same order as the children. Unused places have a difference of minus infinity.
@@ -169,15 +158,9 @@ class BatchKernel {
       met = ~bits_of(d, hn::Lt(slack, hn::Zero(d))) & 0xffU;
       const auto places = look_up(du, order, front_places(du, met));
       hn::StoreU(look_up(d, near, places), d, slot.stack_t() + size);
-      children = look_up(du, children, places);
+      hn::StoreU(look_up(du, children, places), du, stack_child + size);
     }
-    hn::StoreU(children, du, stack_child + size);
-    // The last is taken from the register: reading it back would have to wait for the store.
-    const auto count = static_cast<std::uint32_t>(std::popcount(met));
-    const std::uint32_t last = hn::GetLane(look_up(du, children, hn::Set(du, count - 1)));
-    const std::uint32_t is_none = met - 1U >> 31;  // an arithmetic choice, as a branch could not be foreseen
-    slot.next = last ^ ((last ^ waiting) & (0U - is_none));
-    slot.stack_size = size + count - 1;
+    slot.stack_size = size + static_cast<std::uint32_t>(std::popcount(met));
   }
 
   static std::uint32_t word_of(FastChild child) { return std::bit_cast<std::uint32_t>(child); }
@@ -192,7 +175,6 @@ class BatchKernel {
       stack_child[size] = word_of(node.child[place]);
       size += met >> place & 1U;
     }
-    slot.next = stack_child[--size];
     slot.stack_size = size;
   }
 
@@ -221,14 +203,7 @@ class BatchKernel {
       settling |= (is_open ? 1U : 0U) << number;
     }
     settle(settling, possible);
-    Sets next;
-    for (SlotSet left = testing; left != 0;) {
-      const std::uint32_t number = take_first(left);
-      BatchSlot& slot = memory_.slot(number);
-      slot.next = slot.stack_child(capacity_)[--slot.stack_size];
-      dispatch(number, slot.next, next);
-    }
-    add(next);
+    advance(testing);
   }
 
   // Tests the possible triangles of slots, and shortens the stacks of those that are hit.

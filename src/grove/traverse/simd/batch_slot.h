@@ -27,8 +27,8 @@ struct BatchQuery {
 /// A ray's place in the kernel. Its stack follows in memory: the distances of entries, and `capacity` of them later the children.
 struct alignas(64) BatchSlot {
   BatchRay ray;
-  float t;             // what is farther is not looked for: t_max, then that of the closest hit
   std::uint32_t next;  // the child to go to: FastChild's word, or kDone
+  float t;             // what is farther is not looked for: t_max, then that of the closest hit
   std::uint32_t stack_size;
   std::uint32_t primitive;  // that is hit, or kInvalidId
   float u, v;
