@@ -7,13 +7,6 @@
 
 namespace grove {
 
-/// The highest bit of a number, 0 for 0. A table is faster than the instruction for it on some processors.
-inline constexpr auto kHighestBit = [] {
-  std::array<std::uint8_t, 256> table{};
-  for (unsigned i = 1; i < 256; ++i) table[i] = static_cast<std::uint8_t>(std::bit_width(i) - 1);
-  return table;
-}();
-
 /// The places of the bits of a number, before the others. (Highway has such a table too, but as a local one it may be copied at each use.)
 inline constexpr auto kFrontPlaces = [] {
   std::array<std::array<std::uint8_t, 8>, 256> table{};
