@@ -72,6 +72,7 @@ class PackedTriangleLeaves {
     Box4 bounds = Box4::empty();
     for (std::uint32_t slot = first; slot < first + count; ++slot) {
       const Triangle& triangle = triangles[references[slot]];
+      if (mesh.is_removed(references[slot])) all_hittable = false;
       const Vec3 corners[3] = {vertices[triangle.x], vertices[triangle.y], vertices[triangle.z]};
       for (const Vec3& corner : corners) {
         if (!Ray::is_within(corner, kMaxCoordinate)) all_hittable = false;

@@ -5,6 +5,7 @@
 #include "grove/registry/families.h"
 #include "grove/registry/kd_tree_statistics.h"
 #include "grove/registry/structure_accelerator.h"
+#include "grove/registry/update_by_rebuilding.h"
 #include "grove/traverse/traceable_kd_tree.h"
 
 namespace grove {
@@ -61,13 +62,11 @@ std::unique_ptr<Accelerator> build_over(const Spec& spec, std::shared_ptr<const 
   const auto measure = [](const Structure&, const G&) { return StructureQuality{}; };
   // Planes do not follow what moves: the tree is built anew.
   const auto update = [options](State& state, const G& set, const UpdateSettings& /*settings*/) {
-    UpdateReport report;
-    report.built_cost = expected_cost(state.structure.tree, CostModel());
-    state = build_state(set, options);
-    report.cost = expected_cost(state.structure.tree, CostModel());
-    report.rebuilt_references = state.structure.tree.references.size();
-    report.seconds = state.build_seconds;
-    return report;
+    const auto size = [](const State& now) {
+      return StructureMeasure{expected_cost(now.structure.tree, CostModel()), now.structure.tree.references.size()};
+    };
+    return update_by_rebuilding(
+        state, set, [&](const G& changed) { return build_state(changed, options); }, size);
   };
   State state = build_state(*geometry, options);
   return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), count, view, measure,
