@@ -10,7 +10,7 @@ namespace grove {
 /// How a structure follows its geometry.
 enum class UpdatePolicy : std::uint8_t {
   automatic,  ///< refits and rotates, then rebuilds parts or all where that is predicted to pay (build/passes/partial_rebuild.h)
-  refit,      ///< measures boxes anew and leaves the topology
+  refit,      ///< measures boxes anew and leaves the topology; kd-trees: changes leaves, and builds no subtree anew
   rotate,     ///< refits, then rotates (build/passes/rotation.h)
   rebuild,    ///< builds anew
 };
