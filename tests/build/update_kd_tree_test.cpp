@@ -198,6 +198,18 @@ TEST(KdTreeUpdater, MergesLeavesThatHaveBecomeEmpty) {
   EXPECT_TRUE(playground.tree.nodes.empty());
 }
 
+// As many as several tasks part.
+TEST(KdTreeUpdater, PartsALeafThatGetsManyAtOnce) {
+  for (const KdSplit split : kSplits) {
+    Playground playground(testing::pebbles(2, 1.0F, 12), {.split = split});
+    for (int i = 0; i < 9000; ++i) playground.add(0.05F);
+    ASSERT_TRUE(playground.update(0.0));
+    EXPECT_EQ(playground.tree.validate(playground.mesh.size()), "");
+    const double anew = expected_cost(build_kd_tree(playground.mesh, playground.settings), {});
+    EXPECT_LT(expected_cost(playground.tree, {}), 1.2 * anew);
+  }
+}
+
 TEST(KdTreeUpdater, GrowsWithWhatComesFromOutside) {
   Playground playground(testing::pebbles(2000, 0.05F, 9), {});
   playground.move(5, Vec3(0.2F, 0.0F, 0.0F));

@@ -39,7 +39,7 @@ class KdTreeUpdater::Update {
       } else if (!has_grown(step)) {
         editor_.make_leaf(tree_, step.node, step.cell, step.depth, ids_of(step));
       } else {
-        if (part->nodes.size() > 2) {
+        if (part->is_joined() || part->nodes.size() > 2) {
           editor_.replace(tree_, step.node, step.cell, step.depth, *part);
         } else {
           editor_.make_leaf(tree_, step.node, step.cell, step.depth, ids_of(step));
@@ -251,8 +251,10 @@ KdTreeUpdate KdTreeUpdater::follow(KdTree& tree, const ReferenceClipper& clipper
   changes.search_all = !were_known || is_search_cheaper(tree, changes.leaving);
   // Cells at the border grow with the bounds; what they refer to stays right.
   if (!tree.bounds.contains(bounds)) {
+    const KdCostContext costs = costs_in(bounds, settings_);
+    if (rule.rays > 0.0 && costs.measure(to_box4(bounds)) > 2.0F * costs.measure(to_box4(built_bounds_))) return update;
     tree.bounds = bounds;
-    editor_.measure_again(tree, costs_in(bounds, settings_));
+    editor_.measure_again(tree, costs);
   }
   if (were_known) hittable_ += changes.arriving.size() - changes.leaving.size();
   const auto capacity = static_cast<std::uint64_t>(settings_.most_references * static_cast<double>(hittable_));
@@ -270,8 +272,6 @@ KdTreeUpdate KdTreeUpdater::follow(KdTree& tree, const ReferenceClipper& clipper
   editor_.clear_changed_slots();
   Update work(tree, editor_, boxes_, *trail, context, capacity);
   work.edit_leaves();
-  const bool has_outgrown = costs.measure(to_box4(tree.bounds)) > 2.0F * costs.measure(to_box4(built_bounds_));
-  if (has_outgrown && rule.rays > 0.0) return update;
   const std::optional<std::uint64_t> rebuilt = work.rebuild_subtrees(rule);
   if (!rebuilt) return update;
   update.must_rebuild = false;

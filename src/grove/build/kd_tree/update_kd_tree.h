@@ -62,7 +62,7 @@ class KdTreeUpdater {
     }
     boxes_.resize(geometry.size());
     std::vector<Box> boxes(changed.size());
-    for (std::size_t i = 0; i < changed.size(); ++i) boxes[i] = geometry.bounds(changed[i]);
+    parallel_for(changed.size(), 4096, [&](std::size_t i) { boxes[i] = geometry.bounds(changed[i]); });
     if (settings_.clip) return follow(tree, GeometryClipper<G>(geometry), changed, boxes, rule, were_known);
     return follow(tree, NoClipper(), changed, boxes, rule, were_known);
   }
