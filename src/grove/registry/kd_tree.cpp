@@ -79,7 +79,7 @@ class KdTreeFollower {
  private:
   // Local updates of more take longer than building (docs/kdtree.md).
   static bool is_worth_local(const UpdateSettings& settings, std::size_t size) {
-    constexpr std::size_t kLargestShare = 4;
+    constexpr std::size_t kLargestShare = 6;
     return !settings.changed.empty() && (settings.policy != UpdatePolicy::automatic || settings.changed.size() <= size / kLargestShare);
   }
 

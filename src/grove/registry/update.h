@@ -7,10 +7,11 @@
 
 namespace grove {
 
-/// How a structure follows its geometry.
+/// How a structure follows its geometry. Kd-trees that are told what changed take it out of leaves and put it into others by all of these but `rebuild`, and
+/// build subtrees anew only where it is `automatic`.
 enum class UpdatePolicy : std::uint8_t {
   automatic,  ///< refits and rotates, then rebuilds parts or all where that is predicted to pay (build/passes/partial_rebuild.h)
-  refit,      ///< measures boxes anew and leaves the topology; kd-trees: changes leaves, and builds no subtree anew
+  refit,      ///< measures boxes anew and leaves the topology
   rotate,     ///< refits, then rotates (build/passes/rotation.h)
   rebuild,    ///< builds anew
 };
