@@ -161,7 +161,7 @@ int run(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   const Machine machine = describe_machine();
   const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  fmt::print("{}, {} cores, {}, {}; nanoflann {:x}, leaves of {}\n", machine.cpu, machine.cores, machine.compiler, machine.os,
+  fmt::print("{}, {} cores, {}, {}; nanoflann {:#x}, leaves of {}\n", machine.cpu, machine.cores, machine.compiler, machine.os,
              NANOFLANN_VERSION, leaf_size);
   nlohmann::json report{{"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"compiler", machine.compiler}, {"os", machine.os}}}};
   for (const std::string& layout : {std::string("uniform"), std::string("clustered")}) {
