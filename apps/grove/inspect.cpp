@@ -6,6 +6,7 @@
 
 #include "grove/base/error.h"
 #include "grove/base/output_file.h"
+#include "grove/lab/clustering.h"
 #include "grove/lab/node_boxes.h"
 #include "grove/lab/split_costs.h"
 #include "grove/lab/structure_report.h"
@@ -50,14 +51,17 @@ int run(const InspectOptions& options, Interrupts& interrupts) {
   const BuiltStructure built = build_structure(scene, spec, console);
   console.status("measuring quality");
   const StructureQuality quality = built.accelerator.measure_quality();
+  const std::optional<double> clustering = clustering_of(scene);
 
   // What is being written is finished first; a second signal ends it.
   const Interrupts::Graceful graceful(interrupts);
   console.say("");
-  fmt::print("{}", structure_text(spec, built.statistics, quality, arena_threads()));
+  fmt::print("{}", structure_text(spec, built.statistics, quality, clustering, arena_threads()));
   if (!options.json.empty()) {
     nlohmann::ordered_json json = structure_json(spec, built.statistics, arena_threads());
     json.update(quality_json(quality));
+    json["clustering"] = nullptr;
+    if (clustering) json["clustering"] = *clustering;
     json["scene"] = options.scene;
     write_text_file(options.json, json.dump(2) + "\n");
   }

@@ -1,4 +1,4 @@
-// How long builders take: those of the family `bvh` beside Embree's three qualities, on one pinned thread and on all, and a refit beside a
+// How long builders take beside Embree's three qualities, by default those of the family `bvh`, on one pinned thread and on all, and a refit beside a
 // rebuild. In one process, round by round; the figures are ratios within a round.
 
 #include <fmt/format.h>
@@ -136,7 +136,7 @@ nlohmann::json run_scene(const std::string& source, const Options& options) {
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app{"Builders of the family bvh beside Embree's, and refits beside rebuilds."};
+  CLI::App app{"Builders beside Embree's, and refits beside rebuilds."};
   app.add_option("scenes", options.scenes, "files or built-in scenes; by default three built-in ones of a million triangles");
   app.add_option("--structure", options.structures, "specs to build; the first is the one to compare with");
   app.add_option("--rounds", options.rounds, "rounds")->check(CLI::Range(1, 1000));

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "build/points_in_leaves.h"
 #include "build/sample_meshes.h"
 #include "build/threads.h"
 #include "grove/build/kd_tree/add_ropes.h"
@@ -17,45 +18,14 @@ namespace {
 
 constexpr KdSplit kSplits[] = {KdSplit::sah, KdSplit::binned, KdSplit::object_median, KdSplit::spatial_median};
 
-// Each point of each triangle, up to rounding, lies in the cell of a leaf that refers to the triangle.
-void expect_points_in_their_leaves(const KdTree& tree, const TriangleMesh& mesh) {
-  Random random(1);
-  std::size_t lost = 0;
-  for (std::size_t i = 0; i < mesh.size(); ++i) {
-    if (mesh.bounds(i).is_empty()) continue;
-    for (int sample = 0; sample < 8; ++sample) {
-      // Corners and edges among them.
-      const double u = sample < 2 ? 0.0 : random.next_float();
-      const double v = sample == 0 || sample == 4 ? 0.0 : random.next_float();
-      const glm::dvec3 p = mesh.surface_point(i, u, v);
-      constexpr double kRounding = 1e-6;
-      bool is_found = false;
-      std::vector<std::uint32_t> pending{0};
-      while (!pending.empty() && !is_found) {
-        const KdNode node = tree.nodes[pending.back()];
-        pending.pop_back();
-        if (node.is_leaf()) {
-          const auto first = tree.references.begin() + node.first();
-          is_found = std::binary_search(first, first + node.count(), static_cast<std::uint32_t>(i));
-          continue;
-        }
-        const double position = p[static_cast<int>(node.axis())];
-        if (position <= node.plane() + kRounding) pending.push_back(node.lower_child());
-        if (position >= node.plane() - kRounding) pending.push_back(node.lower_child() + 1);
-      }
-      lost += is_found ? 0 : 1;
-    }
-  }
-  EXPECT_EQ(lost, 0U);
-}
-
 TEST(KdTree, HasEachPointInALeafThatRefersToIt) {
   for (const KdSplit split : kSplits) {
     for (const bool clip : {true, false}) {
       for (const TriangleMesh& mesh : {testing::pebbles(3000, 0.1F, 2), testing::slivers(2000, 3)}) {
         const KdTree tree = build_kd_tree(mesh, {.split = split, .clip = clip});
         EXPECT_EQ(tree.validate(mesh.size()), "");
-        expect_points_in_their_leaves(tree, mesh);
+        EXPECT_TRUE(tree.is_compact());
+        testing::expect_points_in_their_leaves(tree, mesh);
       }
     }
   }
@@ -134,6 +104,7 @@ TEST(KdTree, IsWholeAndBoundedForDegenerateSets) {
       for (const bool clip : {true, false}) {
         const KdTree tree = build_kd_tree(mesh, {.split = split, .clip = clip});
         ASSERT_EQ(tree.validate(mesh.size()), "");
+        EXPECT_TRUE(tree.is_compact());
         EXPECT_LE(tree.depth, 28U);
         std::vector<bool> is_referenced(mesh.size(), false);
         for (const std::uint32_t id : tree.references) is_referenced[id] = true;

@@ -50,6 +50,18 @@ TEST(SphereSet, ClipLeavesOutBoxesThatTheSurfaceMisses) {
   EXPECT_FALSE(set.clip(0, {Vec3(-2.0F), Vec3(2.0F)}).is_empty());  // all of it
 }
 
+TEST(SphereSet, GrowsAndKeepsNumbers) {
+  SphereSet set({{Vec3(0.0F), 1.0F}});
+  const std::vector<SphereSet::Sphere> more(2, {Vec3(1.0F), 2.0F});
+  EXPECT_EQ(set.extend_last_part(more), 1U);
+  EXPECT_EQ(set.size(), 3U);
+  EXPECT_EQ(set.part_count(), 1U);
+  set.remove_sphere(0);
+  EXPECT_EQ(set.size(), 3U);
+  EXPECT_TRUE(set.bounds(0).is_empty());
+  EXPECT_FALSE(set.bounds(1).is_empty());
+}
+
 TEST(SphereSet, SurfacePointsAreUniform) {
   static_assert(SampledGeometry<SphereSet>);
   const SphereSet set({{Vec3(1, 2, 3), 2.0F}, {Vec3(0.0F), -1.0F}});

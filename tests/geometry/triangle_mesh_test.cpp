@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "grove/base/error.h"
+#include "grove/geometry/geometry_concept.h"
 #include "grove/geometry/sampled_geometry.h"
 
 namespace grove {
@@ -41,6 +42,34 @@ TEST(TriangleMesh, RefusesIndicesOutOfRangeAndStaysAsItWas) {
   EXPECT_THROW(mesh.add_part(kCorners, {{0, 1, 4}}), InputError);
   EXPECT_EQ(mesh.size(), 1U);
   EXPECT_EQ(mesh.part_count(), 1U);
+}
+
+TEST(TriangleMesh, ExtendsItsLastPart) {
+  TriangleMesh mesh(kCorners, {{0, 1, 2}});
+  mesh.add_part(kCorners, {{0, 1, 2}});
+  const std::vector<Vec3> more{{5, 5, 5}};
+  const std::vector<Triangle> triangles{{0, 4, 3}, {4, 1, 2}};
+  EXPECT_EQ(mesh.extend_last_part(more, triangles), 2U);
+  EXPECT_EQ(mesh.part_count(), 2U);
+  EXPECT_EQ(mesh.triangles()[2], Triangle(4, 8, 7));
+  EXPECT_EQ(mesh.bounds(3).upper, Vec3(5.0F));
+  const std::vector<Triangle> wrong{{0, 1, 6}};
+  EXPECT_THROW(mesh.extend_last_part(more, wrong), InputError);
+  EXPECT_EQ(mesh.size(), 4U);
+  EXPECT_EQ(mesh.vertices().size(), 9U);
+}
+
+TEST(TriangleMesh, WhatIsRemovedCanNotBeHitAndKeepsItsNumber) {
+  TriangleMesh mesh(kCorners, {{0, 1, 2}, {1, 2, 3}});
+  mesh.remove_triangle(0);
+  EXPECT_EQ(mesh.size(), 2U);
+  EXPECT_TRUE(mesh.is_removed(0));
+  EXPECT_TRUE(mesh.bounds(0).is_empty());
+  EXPECT_EQ(mesh.surface_area(0), 0.0);
+  EXPECT_FALSE(mesh.bounds(1).is_empty());
+  NoCounter counter;
+  Hit hit;
+  EXPECT_FALSE(mesh.intersect(0, TriangleMesh::prepare(Ray{{0, 0, -1}, 0.0F, {0, 0, 1}}), hit, counter));
 }
 
 TEST(TriangleMesh, WhatIsNotFiniteHasNoBounds) {

@@ -45,7 +45,7 @@ TEST(StructureReport, SaysHowLeavesAreFilledAndHowDeepTheyLie) {
   EXPECT_EQ(json.at("mean_leaf_size"), 7.5);
   EXPECT_EQ(json.at("largest_leaf"), 12);
   EXPECT_EQ(json.at("mean_leaf_depth"), 2.25);
-  const std::string text = structure_text("bvh", statistics, {}, 1);
+  const std::string text = structure_text("bvh", statistics, {}, std::nullopt, 1);
   EXPECT_THAT(text, HasSubstr("4  (7.50 references on average, 12 at most)"));
   EXPECT_THAT(text, HasSubstr("3  (2.25 on average over leaves)"));
 }
@@ -55,7 +55,8 @@ TEST(StructureReport, QualityIsNullWhereItWasNotMeasured) {
   const auto nothing = quality_json(quality);
   EXPECT_EQ(nothing.size(), 5U);
   for (const auto& [key, value] : nothing.items()) EXPECT_TRUE(value.is_null()) << key;
-  EXPECT_THAT(structure_text("bvh", {}, quality, 1), ::testing::Not(HasSubstr("overlap")));
+  EXPECT_THAT(structure_text("bvh", {}, quality, std::nullopt, 1),
+              ::testing::Not(::testing::AnyOf(HasSubstr("overlap"), HasSubstr("clustering"))));
   quality.end_point_overlap = {.value = 0.5, .error = 0.01, .sample_count = 1000};
   quality.sibling_overlap = 0.25;
   quality.duplication = 1.5;
@@ -65,10 +66,11 @@ TEST(StructureReport, QualityIsNullWhereItWasNotMeasured) {
   EXPECT_EQ(json.at("end_point_overlap_samples"), 1000);
   EXPECT_EQ(json.at("sibling_overlap"), 0.25);
   EXPECT_EQ(json.at("duplication"), 1.5);
-  const std::string text = structure_text("bvh", {}, quality, 1);
+  const std::string text = structure_text("bvh", {}, quality, 0.75, 1);
   EXPECT_THAT(text, HasSubstr("end-point overlap  0.500  (standard error 0.0100, 1,000 points)\n"));
   EXPECT_THAT(text, HasSubstr("sibling overlap    0.250\n"));
   EXPECT_THAT(text, HasSubstr("duplication        1.50\n"));
+  EXPECT_THAT(text, HasSubstr("clustering         0.750  ("));
 }
 
 TEST(Histogram, DrawsABarForEachBin) {

@@ -12,21 +12,12 @@
 #include "registry/matrix_geometry.h"
 #include "registry/matrix_rays.h"
 #include "registry/matrix_specs.h"
+#include "registry/oracle.h"
 
 namespace grove::test {
 namespace {
 
 constexpr UpdatePolicy kPolicies[] = {UpdatePolicy::automatic, UpdatePolicy::refit, UpdatePolicy::rotate, UpdatePolicy::rebuild};
-
-void expect_hits_of_brute_force(const Accelerator& structure, const GeometryPointer& geometry, std::uint64_t seed) {
-  const auto oracle = build(geometry, "brute");
-  std::size_t differences = 0;
-  for (const Ray& ray : matrix_rays(geometry, 40, seed)) {
-    const Hit expected = oracle->intersect(ray);
-    if (!same_bits(structure.intersect(ray), expected) || structure.occluded(ray) != static_cast<bool>(expected)) ++differences;
-  }
-  EXPECT_EQ(differences, 0U);
-}
 
 // Stirs the vertices: each goes around the middle by an angle that depends on how far away it is, and a little astray.
 std::vector<Vec3> stirred(std::span<const Vec3> vertices, float turn, float stray, std::uint64_t seed) {

@@ -48,9 +48,10 @@ static_assert(sizeof(KdNode) == 8);
 
 /// A kd-tree, as plain data: planes that halve a box again and again until few primitives reach into a cell.
 ///
-/// Node 0 is the root, node 1 is not used, and each further two are siblings, which so share a cache line; pairs are in depth-first order. Cells
-/// are closed: a plane belongs to both sides. A primitive is referenced in as many leaves as it takes for each of its points inside `bounds` to lie
-/// in the cell of one of them. An empty tree has no nodes. Knows boxes and primitive ids, no geometry.
+/// Node 0 is the root, node 1 is not used, and each further two are siblings, which so share a cache line. Cells are closed: a plane belongs to both
+/// sides. A primitive is referenced in as many leaves as it takes for each of its points inside `bounds` to lie in the cell of one of them. An empty tree
+/// has no nodes. As built, pairs and the references of leaves are in depth-first order without gaps; local updates (build/kd_tree/update_kd_tree.h) leave
+/// pairs and references that nothing refers to. Knows boxes and primitive ids, no geometry.
 struct KdTree {
   /// Builders never go deeper, so traversals keep their stack in an array of this size.
   static constexpr std::uint32_t kMaxDepth = 64;
@@ -58,16 +59,18 @@ struct KdTree {
   static constexpr std::uint32_t kMaxNodes = (1U << 30U) - 2;
 
   HugeVector<KdNode> nodes;
-  HugeVector<std::uint32_t> references;  ///< primitive ids, leaf by leaf; ascending within one
-  Box bounds;                            ///< empty when there are no references
+  HugeVector<std::uint32_t> references;  ///< primitive ids; those of a leaf together and ascending
+  Box bounds;                            ///< the cell of the root, which encloses all primitives; empty when there are no references
   std::uint32_t depth = 0;               ///< edges from the root to the deepest leaf
 
   /// Bytes kept for tracing.
   [[nodiscard]] std::size_t memory() const { return nodes.size() * sizeof(KdNode) + references.size() * sizeof(std::uint32_t); }
 
-  /// The first broken invariant in words, or an empty string: each plane inside its cell, each node but number 1 reached once, leaves without gaps in
-  /// order, ids ascending within a leaf and below `primitive_count`, `depth` as found. O(nodes + references).
+  /// The first broken invariant in words, or an empty string: each plane inside its cell, no pair reached twice, pairs that are not reached empty leaves,
+  /// no reference in two leaves, ids ascending within a leaf and below `primitive_count`, `depth` as found. O(nodes + references).
   [[nodiscard]] std::string validate(std::size_t primitive_count) const;
+  /// Whether all is in depth-first order without gaps. O(nodes).
+  [[nodiscard]] bool is_compact() const;
 
   /// Calls visit(cell, depth, node) for each node in depth-first order, parents first, lower before upper.
   template <typename Visitor>

@@ -45,9 +45,25 @@ Ray to_object(const Ray& ray, const Transform& transform) {
 
 }  // namespace
 
+void InstanceSet::check_size(std::size_t size) {
+  if (size >= kInvalidId) throw InputError("a scene may have at most 2^32 - 2 instances");
+}
+
 InstanceSet::InstanceSet(std::vector<Instance> instances) : instances_(std::move(instances)) {
-  if (instances_.size() >= kInvalidId) throw InputError("a scene may have at most 2^32 - 2 instances");
+  check_size(instances_.size());
   refresh_bounds();
+}
+
+std::uint32_t InstanceSet::add_instance(Instance instance) {
+  check_size(instances_.size() + 1);
+  bounds_.push_back(measure(instance));
+  instances_.push_back(std::move(instance));
+  return static_cast<std::uint32_t>(instances_.size() - 1);
+}
+
+void InstanceSet::remove_instance(std::size_t i) {
+  instances_[i].object.reset();
+  bounds_[i] = {};
 }
 
 void InstanceSet::move_instance(std::size_t i, const Transform& object_to_world) {

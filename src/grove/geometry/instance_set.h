@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -28,8 +29,11 @@ class InstanceSet {
   InstanceSet() = default;
   explicit InstanceSet(std::vector<Instance> instances);
 
-  /// Puts instance i elsewhere. Structures over the set must be updated before they are traced again (Accelerator::update); what the
-  /// instance refers to stays as it is.
+  /// Adds an instance and returns its number. Structures over the set must be updated before they are traced again (Accelerator::update).
+  std::uint32_t add_instance(Instance instance);
+  /// Makes instance i one that can never be hit, and lets go of its object. Numbers stay. As for structures, see above.
+  void remove_instance(std::size_t i);
+  /// Puts instance i elsewhere; what it refers to stays as it is. As for structures, see above.
   void move_instance(std::size_t i, const Transform& object_to_world);
   /// Measures all instances anew, after objects that they refer to have been updated. O(n).
   void refresh_bounds();
@@ -56,6 +60,7 @@ class InstanceSet {
   void locate(Hit& /*hit*/) const {}
 
  private:
+  static void check_size(std::size_t size);
   [[nodiscard]] static Box measure(const Instance& instance);
   bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, TraversalCounts* counts) const;
   bool occluded(std::size_t i, const PreparedRay& ray, TraversalCounts* counts) const;

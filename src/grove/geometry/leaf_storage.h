@@ -1,6 +1,6 @@
 #pragma once
 
-// How a structure's leaves reach the primitives: by slot, the position in its list of references. Every storage has `refresh`, `prefetch`,
+// How a structure's leaves reach the primitives: by slot, the position in its list of references. Every storage has `resize`, `refresh`, `prefetch`,
 // `intersect` and `occluded` by slot; which one a geometry uses is LeafStorage<G>.
 
 #include <cstdint>
@@ -21,6 +21,9 @@ class IndirectLeaves {
   IndirectLeaves(const G& /*geometry*/, std::span<const std::uint32_t> /*references*/) {}
 
   [[nodiscard]] static std::size_t memory() { return 0; }
+
+  /// Makes room for so many slots; those that are new must be refreshed.
+  static void resize(std::size_t /*slot_count*/) {}
 
   /// Bounds of the primitives in slots [first, first + count) as they are now. `all_hittable` becomes false when one can never be hit.
   [[nodiscard]] Box4 refresh(const G& geometry, const std::uint32_t* references, std::uint32_t first, std::uint32_t count,
@@ -64,6 +67,8 @@ class PackedTriangleLeaves {
 
   [[nodiscard]] std::size_t memory() const { return corners_.size() * sizeof(TriangleCorners); }
 
+  void resize(std::size_t slot_count) { corners_.resize(slot_count + 1); }
+
   /// As IndirectLeaves::refresh; fetches the corners again.
   [[nodiscard]] Box4 refresh(const TriangleMesh& mesh, const std::uint32_t* references, std::uint32_t first, std::uint32_t count,
                              bool& all_hittable) {
@@ -72,6 +77,7 @@ class PackedTriangleLeaves {
     Box4 bounds = Box4::empty();
     for (std::uint32_t slot = first; slot < first + count; ++slot) {
       const Triangle& triangle = triangles[references[slot]];
+      if (mesh.is_removed(references[slot])) all_hittable = false;
       const Vec3 corners[3] = {vertices[triangle.x], vertices[triangle.y], vertices[triangle.z]};
       for (const Vec3& corner : corners) {
         if (!Ray::is_within(corner, kMaxCoordinate)) all_hittable = false;

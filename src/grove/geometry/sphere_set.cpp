@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "grove/base/check.h"
 #include "grove/base/error.h"
 #include "grove/geometry/part_table.h"
 
@@ -43,8 +44,12 @@ SphereSet::SphereSet(std::vector<Sphere> spheres) {
   add_part(std::move(spheres));
 }
 
+void SphereSet::check_size(std::size_t size) {
+  if (size >= kInvalidId) throw InputError("a set may have at most 2^32 - 2 spheres");
+}
+
 std::uint32_t SphereSet::add_part(std::vector<Sphere> spheres) {
-  if (spheres_.size() + spheres.size() >= kInvalidId) throw InputError("a set may have at most 2^32 - 2 spheres");
+  check_size(spheres_.size() + spheres.size());
   part_first_.push_back(static_cast<std::uint32_t>(spheres_.size()));
   if (spheres_.empty()) {
     spheres_ = std::move(spheres);
@@ -52,6 +57,14 @@ std::uint32_t SphereSet::add_part(std::vector<Sphere> spheres) {
     spheres_.insert(spheres_.end(), spheres.begin(), spheres.end());
   }
   return static_cast<std::uint32_t>(part_first_.size() - 1);
+}
+
+std::uint32_t SphereSet::extend_last_part(std::span<const Sphere> spheres) {
+  GROVE_CHECK(part_count() > 0);
+  check_size(spheres_.size() + spheres.size());
+  const auto first = static_cast<std::uint32_t>(spheres_.size());
+  spheres_.insert(spheres_.end(), spheres.begin(), spheres.end());
+  return first;
 }
 
 void SphereSet::move_spheres(std::vector<Sphere> spheres) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "grove/geometry/hit.h"
@@ -10,7 +12,8 @@
 namespace grove {
 
 /// Analytic spheres, in one or more parts as TriangleMesh has them. A sphere is hollow: a ray that starts inside hits its far side.
-/// Spheres with a radius that is not positive and finite, or a centre that is not finite, can never be hit.
+/// Spheres with a radius that is not positive and finite, or a centre that is not finite, can never be hit. A set changes as a mesh does: numbers
+/// stay, and structures over it must be updated.
 class SphereSet {
  public:
   struct Sphere {
@@ -30,9 +33,16 @@ class SphereSet {
   /// Appends a part and returns its number.
   std::uint32_t add_part(std::vector<Sphere> spheres);
 
-  /// Replaces every sphere, over all parts. Structures over the set must be updated before they are traced again (Accelerator::update).
-  /// Throws InputError when there are not as many as size().
+  /// Appends spheres to the last part, which there must be. Returns the number of the first in the whole set.
+  std::uint32_t extend_last_part(std::span<const Sphere> spheres);
+
+  /// Makes sphere i one that can never be hit: its radius becomes 0.
+  void remove_sphere(std::size_t i) { spheres_[i].radius = 0.0F; }
+
+  /// Replaces every sphere, over all parts. Throws InputError when there are not as many as size().
   void move_spheres(std::vector<Sphere> spheres);
+  /// Replaces one.
+  void move_sphere(std::size_t i, const Sphere& sphere) { spheres_[i] = sphere; }
 
   [[nodiscard]] std::size_t size() const { return spheres_.size(); }
   [[nodiscard]] std::size_t part_count() const { return part_first_.size(); }
@@ -60,6 +70,7 @@ class SphereSet {
   void locate(Hit& hit) const;
 
  private:
+  static void check_size(std::size_t size);
   bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit) const;
   [[nodiscard]] bool occluded(std::size_t i, const PreparedRay& ray) const;
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "grove/base/check.h"
 #include "grove/base/error.h"
 #include "grove/base/parallel.h"
 #include "grove/geometry/clip_triangle.h"
@@ -17,23 +18,39 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Triangle> tri
   add_part(std::move(vertices), std::move(triangles));
 }
 
-std::uint32_t TriangleMesh::add_part(std::vector<Vec3> vertices, std::vector<Triangle> triangles) {
-  if (vertices_.size() + vertices.size() >= kInvalidId || triangles_.size() + triangles.size() >= kInvalidId)
+// `part_vertices` is how many vertices the part will have, `new_vertices` of them added.
+void TriangleMesh::check_triangles(std::span<const Triangle> triangles, std::size_t part_vertices, std::size_t new_vertices) const {
+  if (vertices_.size() + new_vertices >= kInvalidId || triangles_.size() + triangles.size() >= kInvalidId)
     throw InputError("a mesh may have at most 2^32 - 2 vertices and triangles; split it into instances");
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const Triangle& triangle = triangles[i];
     const std::uint32_t largest = std::max({triangle.x, triangle.y, triangle.z});
-    if (largest >= vertices.size())
+    if (largest >= part_vertices)
       throw InputError("triangle " + std::to_string(i) + " names vertex " + std::to_string(largest) + ", but there are only " +
-                       std::to_string(vertices.size()));
+                       std::to_string(part_vertices));
   }
-  const auto part = static_cast<std::uint32_t>(part_first_triangle_.size());
-  const auto vertex_offset = static_cast<std::uint32_t>(vertices_.size());
-  part_first_triangle_.push_back(static_cast<std::uint32_t>(triangles_.size()));
-  part_first_vertex_.push_back(vertex_offset);
+}
+
+void TriangleMesh::append(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::uint32_t first_vertex) {
   vertices_.insert(vertices_.end(), vertices.begin(), vertices.end());
-  for (const Triangle& triangle : triangles) triangles_.push_back(triangle + vertex_offset);
-  return part;
+  for (const Triangle& triangle : triangles) triangles_.push_back(triangle + first_vertex);
+}
+
+std::uint32_t TriangleMesh::add_part(std::vector<Vec3> vertices, std::vector<Triangle> triangles) {
+  check_triangles(triangles, vertices.size(), vertices.size());
+  part_first_triangle_.push_back(static_cast<std::uint32_t>(triangles_.size()));
+  part_first_vertex_.push_back(static_cast<std::uint32_t>(vertices_.size()));
+  append(vertices, triangles, part_first_vertex_.back());
+  return static_cast<std::uint32_t>(part_count() - 1);
+}
+
+std::uint32_t TriangleMesh::extend_last_part(std::span<const Vec3> vertices, std::span<const Triangle> triangles) {
+  GROVE_CHECK(part_count() > 0);
+  const std::uint32_t first_vertex = part_first_vertex_.back();
+  check_triangles(triangles, vertices_.size() - first_vertex + vertices.size(), vertices.size());
+  const auto first = static_cast<std::uint32_t>(triangles_.size());
+  append(vertices, triangles, first_vertex);
+  return first;
 }
 
 void TriangleMesh::move_vertices(std::span<const Vec3> positions) {
@@ -47,8 +64,9 @@ void TriangleMesh::move_vertices(std::span<const Vec3> positions) {
 }
 
 Box TriangleMesh::bounds(std::size_t i) const {
-  const Triangle& triangle = triangles_[i];
   Box box;
+  if (is_removed(i)) return box;
+  const Triangle& triangle = triangles_[i];
   for (int corner = 0; corner < 3; ++corner) {
     const Vec3& v = vertices_[triangle[corner]];
     if (!Ray::is_within(v, kMaxCoordinate)) return {};

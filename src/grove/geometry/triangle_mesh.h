@@ -16,8 +16,11 @@ namespace grove {
 /// Triangles over shared vertices, made of one or more parts (a part is one mesh of a scene, one material).
 ///
 /// During traversal a primitive is known by its number in the whole mesh, which orders by part first; `locate` turns it into
-/// (geometry = part, primitive within the part). Triangles with a coordinate that is not finite, or beyond kMaxCoordinate, can never be hit
-/// and have empty bounds. Memory: 12 bytes a vertex and 12 a triangle.
+/// (geometry = part, primitive within the part). Triangles with a coordinate that is not finite, or beyond kMaxCoordinate, and those whose corners
+/// are all the same vertex can never be hit and have empty bounds. Memory: 12 bytes a vertex and 12 a triangle.
+///
+/// A mesh may change, but numbers never do: triangles are added behind all others, and one that is removed keeps its number. Structures over the
+/// mesh must be updated (Accelerator::update) before they are traced again.
 class TriangleMesh {
  public:
   using PreparedRay = WatertightRay;
@@ -31,9 +34,20 @@ class TriangleMesh {
   /// Throws as the constructor does, and leaves the mesh as it was.
   std::uint32_t add_part(std::vector<Vec3> vertices, std::vector<Triangle> triangles);
 
-  /// Puts every vertex, over all parts, where `positions` says. Structures over the mesh must be updated before they are traced again
-  /// (Accelerator::update). Throws InputError when there are not as many as vertices().
+  /// Appends vertices and triangles to the last part, so that they have no part of their own; the triangles index all vertices of that part, old
+  /// ones first. There must be a part. Returns the whole-mesh number of the first triangle. Throws as the constructor does, and leaves the mesh as it was.
+  std::uint32_t extend_last_part(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+
+  /// Makes triangle i one that can never be hit. It keeps its number, and all vertices stay.
+  void remove_triangle(std::size_t i) { triangles_[i] = Triangle(triangles_[i].x); }
+
+  /// Puts every vertex, over all parts, where `positions` says. Throws InputError when there are not as many as vertices().
   void move_vertices(std::span<const Vec3> positions);
+  /// Puts one vertex, counted over all parts, elsewhere.
+  void move_vertex(std::size_t i, const Vec3& position) { vertices_[i] = position; }
+
+  /// Whether the corners of triangle i are all the same vertex, as those of removed ones are.
+  [[nodiscard]] bool is_removed(std::size_t i) const { return triangles_[i] == Triangle(triangles_[i].x); }
 
   /// Number of triangles, over all parts.
   [[nodiscard]] std::size_t size() const { return triangles_.size(); }
@@ -80,6 +94,9 @@ class TriangleMesh {
   void locate(Hit& hit) const;
 
  private:
+  void check_triangles(std::span<const Triangle> triangles, std::size_t part_vertices, std::size_t new_vertices) const;
+  void append(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::uint32_t first_vertex);
+
   HugeVector<Vec3> vertices_;
   HugeVector<Triangle> triangles_;
   std::vector<std::uint32_t> part_first_triangle_;

@@ -19,7 +19,8 @@ std::string spread_text(const Spread& spread) {
 // "rotate 60, rebuild 40": how often updates did what.
 std::string methods_text(const std::vector<const AnimationRow*>& rows) {
   std::string text;
-  for (const UpdateMethod method : {UpdateMethod::refit, UpdateMethod::rotate, UpdateMethod::partial_rebuild, UpdateMethod::rebuild}) {
+  for (const UpdateMethod method :
+       {UpdateMethod::refit, UpdateMethod::rotate, UpdateMethod::partial_rebuild, UpdateMethod::local, UpdateMethod::rebuild}) {
     const auto times = std::count_if(rows.begin(), rows.end(), [&](const AnimationRow* row) { return row->update.method == method; });
     if (times > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name_of(method), times);
   }

@@ -6,6 +6,7 @@
 
 #include "grove/build/primitive_reference.h"
 #include "grove/build/split.h"
+#include "grove/lab/largest_object.h"
 
 namespace grove {
 namespace {
@@ -55,9 +56,8 @@ SplitCostCurve curve_on(const ReferenceList& list, int axis, unsigned plane_coun
 
 std::vector<SplitCostCurve> split_cost_curves(const Scene& scene, unsigned plane_count) {
   std::vector<SplitCostCurve> curves;
-  const auto largest = std::max_element(scene.objects.begin(), scene.objects.end(),
-                                        [](const Object& a, const Object& b) { return a.primitive_count() < b.primitive_count(); });
-  if (largest == scene.objects.end()) return curves;
+  const Object* const largest = largest_object(scene);
+  if (largest == nullptr) return curves;
   const ReferenceList list = std::visit([](const auto& set) { return list_references(*set); }, largest->geometry);
   if (list.references.empty()) return curves;
   for (int axis = 0; axis < 3; ++axis) curves.push_back(curve_on(list, axis, plane_count));

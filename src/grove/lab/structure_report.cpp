@@ -61,7 +61,7 @@ nlohmann::ordered_json quality_json(const StructureQuality& quality) {
 }
 
 std::string structure_text(std::string_view spec, const StructureStatistics& statistics, const StructureQuality& quality,
-                           unsigned threads) {
+                           std::optional<double> clustering, unsigned threads) {
   const auto per_primitive = [&](std::uint64_t value) { return ratio(value, statistics.primitives); };
   std::string text;
   const auto add = [&](std::string_view name, const std::string& value) { text += fmt::format("{:<18} {}\n", name, value); };
@@ -82,6 +82,7 @@ std::string structure_text(std::string_view spec, const StructureStatistics& sta
   }
   if (quality.sibling_overlap) add("sibling overlap", short_number(*quality.sibling_overlap));
   if (quality.duplication) add("duplication", short_number(*quality.duplication));
+  if (clustering) add("clustering", fmt::format("{}  (1: primitives lie at random)", short_number(*clustering)));
   text += "\nleaves by number of references\n" + histogram_text(statistics.leaf_sizes, true);
   text += "\nleaves by depth\n" + histogram_text(statistics.depths, false);
   return text;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,9 +18,9 @@ namespace grove {
 /// Null where there is no such figure.
 [[nodiscard]] nlohmann::ordered_json quality_json(const StructureQuality& quality);
 
-/// The same for people: one line a figure, and the histograms as bars.
+/// The same for people: one line a figure, and the histograms as bars. `clustering` is that of the primitives (clustering.h).
 [[nodiscard]] std::string structure_text(std::string_view spec, const StructureStatistics& statistics, const StructureQuality& quality,
-                                         unsigned threads);
+                                         std::optional<double> clustering, unsigned threads);
 
 /// A bar for each bin from the first that is not empty to the last; many bins are drawn together in ranges. The last bin reads "n+" when
 /// `last_is_open`.

@@ -52,10 +52,13 @@ class Accelerator : public Traceable {
   /// Calls `visit` for each node, parents before children.
   virtual void visit_nodes(const std::function<void(const NodeView&)>& visit) const = 0;
 
-  /// Follows the geometry after its primitives have moved (TriangleMesh::move_vertices and the like), so that hits are again those of a
-  /// structure built anew, and says how. Primitives may not have been added or removed, but may have become unhittable or hittable. Where a
-  /// form has no refit it is rebuilt. Must not run while rays are traced. Runs in parallel in the caller's oneTBB arena; the result does not depend
-  /// on the number of threads.
+  /// Follows the geometry after it has changed, so that hits are again those of a structure built anew, and says how. Primitives may have moved
+  /// (TriangleMesh::move_vertices and the like), been added behind the others (extend_last_part, add_part, add_instance), and been removed, which
+  /// is to say have become unhittable (remove_triangle and the like); the numbers of all others stay, so `size` never falls. Telling which did
+  /// (settings.changed) lets structures with local updates look at those alone. Where a form has no refit, or what can be hit is not what was
+  /// there, it is rebuilt. Throws InputError, and changes nothing, for a number in settings.changed that no primitive has, for 2^31
+  /// primitives or more, and where the geometry has become smaller. Must not run while rays are traced. Runs in parallel in the caller's oneTBB
+  /// arena; the result does not depend on the number of threads.
   virtual UpdateReport update(const UpdateSettings& settings) = 0;
 
   /// Closest hits: hits[i] answers rays[i]. The spans must be of equal length. Runs in the calling thread; split the batch to use more.

@@ -1,6 +1,7 @@
 #include "grove/base/timer.h"
 #include "grove/registry/families.h"
 #include "grove/registry/structure_accelerator.h"
+#include "grove/registry/update_by_rebuilding.h"
 #include "grove/traverse/brute_traversal.h"
 
 namespace grove {
@@ -37,13 +38,10 @@ StructureStatistics count(const StructureState<Brute>& state, const G& /*geometr
 
 template <Geometry G>
 UpdateReport update(StructureState<Brute>& state, const G& geometry, const UpdateSettings& /*settings*/) {
-  UpdateReport report;
-  report.built_cost = *state.expected_cost;
-  state = look_at(geometry);
-  report.cost = *state.expected_cost;
-  report.rebuilt_references = static_cast<std::uint64_t>(report.cost);
-  report.seconds = state.build_seconds;
-  return report;
+  const auto measure = [](const StructureState<Brute>& s) {
+    return StructureMeasure{*s.expected_cost, static_cast<std::uint64_t>(*s.expected_cost)};
+  };
+  return update_by_rebuilding(state, geometry, look_at<G>, measure);
 }
 
 template <Geometry G>

@@ -8,6 +8,7 @@
 #include "grove/registry/bvh_binary.h"
 #include "grove/registry/families.h"
 #include "grove/registry/hierarchy_accelerator.h"
+#include "grove/registry/update_by_rebuilding.h"
 #include "grove/traverse/fast_traversal.h"
 #include "grove/traverse/simd/fast_batch.h"
 #include "grove/traverse/wide_traversal.h"
@@ -84,13 +85,11 @@ std::unique_ptr<Accelerator> build_over_mesh(const Spec& spec, std::shared_ptr<c
   const auto view = [](const FastStructure& s, const std::function<void(const NodeView&)>& visit) { view_nodes(s.bvh, visit); };
   const auto measure = [](const FastStructure& /*s*/, const TriangleMesh& /*m*/) { return StructureQuality{}; };
   const auto update = [quality](FastState& s, const TriangleMesh& m, const UpdateSettings& /*settings*/) {
-    UpdateReport report;
-    report.built_cost = expected_cost(s.structure.bvh, CostModel{});
-    s = build_over(m, quality);
-    report.cost = expected_cost(s.structure.bvh, CostModel{});
-    report.rebuilt_references = s.structure.bvh.references;
-    report.seconds = s.build_seconds;
-    return report;
+    const auto size = [](const FastState& now) {
+      return StructureMeasure{expected_cost(now.structure.bvh, CostModel{}), now.structure.bvh.references};
+    };
+    return update_by_rebuilding(
+        s, m, [&](const TriangleMesh& changed) { return build_over(changed, quality); }, size);
   };
   return std::make_unique<StructureAccelerator<FastStructure, TriangleMesh>>(std::move(state), std::move(mesh), spec.canonical(), count,
                                                                              view, measure, update);

@@ -69,14 +69,18 @@ class HierarchyUpdater {
  private:
   // What is known of the structure as it was built, taken down before its boxes change. Returns its expected cost.
   double remember(const State& state, const G& geometry) {
-    if (is_known_) return built_cost_;
+    if (is_known_) {
+      // Of those that were added since, the structure knows none.
+      for (; size_ < geometry.size(); ++size_) left_out_.push_back(size_);
+      return built_cost_;
+    }
     const Hierarchy& bvh = state.structure.bvh;
     built_cost_ = expected_cost_of(state);
     std::vector<bool> is_referenced(geometry.size(), false);
     for (const std::uint32_t reference : bvh.references) is_referenced[reference] = true;
     left_out_.clear();
-    for (std::uint32_t i = 0; i < is_referenced.size(); ++i)
-      if (!is_referenced[i]) left_out_.push_back(i);
+    for (size_ = 0; size_ < is_referenced.size(); ++size_)
+      if (!is_referenced[size_]) left_out_.push_back(size_);
     if constexpr (std::same_as<Hierarchy, Bvh2>) built_ = measure_subtree_costs(bvh).per_entry;
     is_known_ = true;
     return built_cost_;
@@ -156,6 +160,7 @@ class HierarchyUpdater {
   TopDownSettings part_settings_;
   bool is_known_ = false;
   double built_cost_ = 0.0;
+  std::uint32_t size_ = 0;               // primitives that left_out_ is about
   std::vector<std::uint32_t> left_out_;  // primitives that could not be hit
   std::vector<float> built_;             // cost per entry of each node of a binary hierarchy, as it was built
 };

@@ -2,9 +2,11 @@
 #include "grove/base/timer.h"
 #include "grove/build/kd_tree/add_ropes.h"
 #include "grove/build/kd_tree/build_kd_tree.h"
+#include "grove/build/kd_tree/update_kd_tree.h"
 #include "grove/registry/families.h"
 #include "grove/registry/kd_tree_statistics.h"
 #include "grove/registry/structure_accelerator.h"
+#include "grove/registry/update_by_rebuilding.h"
 #include "grove/traverse/traceable_kd_tree.h"
 
 namespace grove {
@@ -32,7 +34,10 @@ struct KdTreeOptions {
 };
 
 template <Geometry G>
-StructureState<TraceableKdTree<G>> build_state(const G& geometry, const KdTreeOptions& options) {
+using KdTreeState = StructureState<TraceableKdTree<G>>;
+
+template <Geometry G>
+KdTreeState<G> build_state(const G& geometry, const KdTreeOptions& options) {
   const Timer timer;
   KdTree tree = build_kd_tree(geometry, options.settings);
   GROVE_ASSERT(tree.validate(geometry.size()).empty());
@@ -44,13 +49,73 @@ StructureState<TraceableKdTree<G>> build_state(const G& geometry, const KdTreeOp
 }
 
 template <Geometry G>
+double cost_of(const KdTreeState<G>& state) {
+  return state.expected_cost ? *state.expected_cost : expected_cost(state.structure.tree, CostModel());
+}
+
+/// Updates one tree: locally where it is told what changed and that is not most of it, else by building anew.
+template <Geometry G>
+class KdTreeFollower {
+ public:
+  explicit KdTreeFollower(const KdTreeOptions& options) : options_(options), updater_(options.settings) {}
+
+  UpdateReport operator()(KdTreeState<G>& state, const G& geometry, const UpdateSettings& settings) {
+    const Timer timer;
+    UpdateReport report;
+    if (settings.policy != UpdatePolicy::rebuild && is_worth_local(settings, geometry.size()) &&
+        follow(state, geometry, settings, report)) {
+      report.seconds = timer.seconds();
+      return report;
+    }
+    const double built_cost = updater_.built_cost();
+    updater_.forget();
+    const auto measure = [](const KdTreeState<G>& now) { return StructureMeasure{cost_of(now), now.structure.tree.references.size()}; };
+    report = update_by_rebuilding(
+        state, geometry, [&](const G& changed) { return build_state(changed, options_); }, measure);
+    if (built_cost > 0.0) report.built_cost = built_cost;
+    return report;
+  }
+
+ private:
+  // Local updates of more take longer than building (docs/kdtree.md).
+  static bool is_worth_local(const UpdateSettings& settings, std::size_t size) {
+    constexpr std::size_t kLargestShare = 6;
+    return !settings.changed.empty() && (settings.policy != UpdatePolicy::automatic || settings.changed.size() <= size / kLargestShare);
+  }
+
+  // Returns false where the tree is to be built anew.
+  bool follow(KdTreeState<G>& state, const G& geometry, const UpdateSettings& settings, UpdateReport& report) {
+    TraceableKdTree<G>& structure = state.structure;
+    if (options_.has_ropes) remove_ropes(structure.tree, structure.ropes);
+    KdRebuildRule rule;
+    rule.rays = settings.policy == UpdatePolicy::automatic ? settings.rays : 0.0;
+    const KdTreeUpdate update = updater_.update(structure.tree, geometry, settings.changed, rule);
+    if (update.must_rebuild) return false;
+    GROVE_ASSERT(structure.tree.validate(geometry.size()).empty());
+    if (options_.has_ropes) structure.ropes = add_ropes(structure.tree);
+    const KdSlots all{0, static_cast<std::uint32_t>(structure.tree.references.size())};
+    structure.refresh(geometry, update.is_compacted ? std::span(&all, 1) : update.slots);
+    report.method = UpdateMethod::local;
+    report.built_cost = updater_.built_cost();
+    report.cost = update.cost;
+    report.rebuilt_references = update.rebuilt_references;
+    state.expected_cost = update.cost;
+    state.bounds = structure.tree.bounds;
+    return true;
+  }
+
+  KdTreeOptions options_;
+  KdTreeUpdater updater_;
+};
+
+template <Geometry G>
 std::unique_ptr<Accelerator> build_over(const Spec& spec, std::shared_ptr<const G> geometry) {
   using Structure = TraceableKdTree<G>;
-  using State = StructureState<Structure>;
+  using State = KdTreeState<G>;
   const KdTreeOptions options(spec);
   const auto count = [](const State& state, const G& /*geometry*/) {
     StructureStatistics statistics = count_nodes(state.structure.tree);
-    statistics.expected_cost = expected_cost(state.structure.tree, CostModel());
+    statistics.expected_cost = cost_of(state);
     statistics.bytes = state.structure.memory();
     return statistics;
   };
@@ -59,19 +124,9 @@ std::unique_ptr<Accelerator> build_over(const Spec& spec, std::shared_ptr<const 
   };
   // Overlap is a measure of hierarchies: cells have none.
   const auto measure = [](const Structure&, const G&) { return StructureQuality{}; };
-  // Planes do not follow what moves: the tree is built anew.
-  const auto update = [options](State& state, const G& set, const UpdateSettings& /*settings*/) {
-    UpdateReport report;
-    report.built_cost = expected_cost(state.structure.tree, CostModel());
-    state = build_state(set, options);
-    report.cost = expected_cost(state.structure.tree, CostModel());
-    report.rebuilt_references = state.structure.tree.references.size();
-    report.seconds = state.build_seconds;
-    return report;
-  };
   State state = build_state(*geometry, options);
   return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), count, view, measure,
-                                                              update);
+                                                              KdTreeFollower<G>(options));
 }
 
 }  // namespace

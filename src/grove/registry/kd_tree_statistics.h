@@ -13,7 +13,6 @@ namespace grove {
 [[nodiscard]] inline StructureStatistics count_nodes(const KdTree& tree) {
   constexpr std::size_t kHistogramSize = 33;
   StructureStatistics statistics;
-  statistics.references = tree.references.size();
   statistics.depth = tree.depth;
   statistics.leaf_sizes.resize(kHistogramSize);
   statistics.depths.resize(tree.depth + 1);
@@ -21,6 +20,7 @@ namespace grove {
     ++statistics.nodes;
     if (!node.is_leaf()) return;
     ++statistics.leaves;
+    statistics.references += node.count();
     ++statistics.leaf_sizes[std::min<std::size_t>(node.count(), kHistogramSize - 1)];
     ++statistics.depths[depth];
     statistics.largest_leaf = std::max(statistics.largest_leaf, node.count());

@@ -1,9 +1,7 @@
 #include "grove/registry/registry.h"
 
-#include <limits>
 #include <utility>
 
-#include "grove/base/error.h"
 #include "grove/registry/families.h"
 
 namespace grove {
@@ -64,9 +62,7 @@ std::string canonical_spec(std::string_view spec) {
 
 std::unique_ptr<Accelerator> build(GeometryPointer geometry, std::string_view spec) {
   const Spec parsed = Spec::parse(spec);
-  const std::size_t size = std::visit([](const auto& set) { return set->size(); }, geometry);
-  if (size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    throw InputError("a structure may have at most 2^31 - 1 primitives, not " + std::to_string(size) + "; split it into instances");
+  check_primitive_count(std::visit([](const auto& set) { return set->size(); }, geometry));
   const auto row = static_cast<std::size_t>(&parsed.family() - structure_families().data());
   return kRows[row].build(parsed, geometry);
 }

@@ -47,6 +47,7 @@ class StructureAccelerator final : public Accelerator {
                        NodeVisitor node_visitor, QualityMeasure quality_measure, Updater updater)
       : state_(std::move(state)),
         geometry_(std::move(geometry)),
+        size_(geometry_->size()),
         spec_(std::move(spec)),
         statistics_counter_(statistics_counter),
         node_visitor_(node_visitor),
@@ -69,7 +70,9 @@ class StructureAccelerator final : public Accelerator {
   void visit_nodes(const std::function<void(const NodeView&)>& visit) const override { node_visitor_(state_.structure, visit); }
 
   UpdateReport update(const UpdateSettings& settings) override {
+    check_update(size_, geometry_->size(), settings);
     UpdateReport report = updater_(state_, *geometry_, settings);
+    size_ = geometry_->size();
     statistics_.reset();
     return report;
   }
@@ -140,6 +143,7 @@ class StructureAccelerator final : public Accelerator {
 
   State state_;
   std::shared_ptr<const G> geometry_;
+  std::size_t size_;  // primitives that the structure knows
   std::string spec_;
   StatisticsCounter statistics_counter_;
   NodeVisitor node_visitor_;

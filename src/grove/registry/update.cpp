@@ -1,5 +1,6 @@
 #include "grove/registry/update.h"
 
+#include <limits>
 #include <string>
 
 #include "grove/base/error.h"
@@ -33,10 +34,28 @@ std::string_view name_of(UpdateMethod method) {
       return "rotate";
     case UpdateMethod::partial_rebuild:
       return "partial rebuild";
+    case UpdateMethod::local:
+      return "local";
     case UpdateMethod::rebuild:
       break;
   }
   return "rebuild";
+}
+
+void check_primitive_count(std::size_t count) {
+  if (count > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    throw InputError("a structure may have at most 2^31 - 1 primitives, not " + std::to_string(count) + "; split it into instances");
+}
+
+void check_update(std::size_t known, std::size_t count, const UpdateSettings& settings) {
+  check_primitive_count(count);
+  if (count < known)
+    throw InputError("the geometry had " + std::to_string(known) + " primitives and now has " + std::to_string(count) +
+                     "; make primitives unhittable to remove them, or build anew");
+  for (const std::uint32_t i : settings.changed) {
+    if (i >= count)
+      throw InputError("primitive " + std::to_string(i) + " is said to have changed, but there are only " + std::to_string(count));
+  }
 }
 
 UpdatePolicy parse_update_policy(std::string_view name) {

@@ -26,6 +26,19 @@ struct TraceableKdTree {
   TraceableKdTree(KdTree kd_tree, KdRopes kd_ropes, const G& geometry, UseMailbox use_mailbox)
       : tree(std::move(kd_tree)), ropes(std::move(kd_ropes)), leaves(geometry, tree.references), mailbox(use_mailbox) {}
 
+  /// Looks again at the geometry after the tree has changed, where `slots` (a span of stretches with `first` and `count`) say that references have.
+  template <typename Slots>
+  void refresh(const G& geometry, const Slots& slots) {
+    leaves.resize(tree.references.size());
+    parallel_for(slots.size(), 64, [&](std::size_t i) {
+      parallel_ranges(slots[i].count, 16384, [&](std::size_t first, std::size_t last) {
+        bool all_hittable = true;  // as all are that a tree refers to
+        static_cast<void>(leaves.refresh(geometry, tree.references.data(), slots[i].first + static_cast<std::uint32_t>(first),
+                                         static_cast<std::uint32_t>(last - first), all_hittable));
+      });
+    });
+  }
+
   /// Bytes kept for tracing.
   [[nodiscard]] std::size_t memory() const { return tree.memory() + ropes.memory() + leaves.memory(); }
 };

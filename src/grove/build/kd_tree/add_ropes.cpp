@@ -1,5 +1,6 @@
 #include "grove/build/kd_tree/add_ropes.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -87,6 +88,9 @@ void move_leaves(KdTree& tree, KdRopes& ropes) {
     for (std::size_t i = first; i < last; ++i) {
       if (!is_used_leaf(i)) continue;
       KdRopedLeaf& leaf = ropes.leaves[number];
+      // A leaf that nothing refers to stays like that.
+      leaf.cell = {};
+      std::fill_n(leaf.ropes, 6, KdRopedLeaf::kOutside);
       leaf.first = tree.nodes[i].first();
       leaf.count = tree.nodes[i].count();
       leaf.unused[0] = leaf.unused[1] = 0;
@@ -97,6 +101,13 @@ void move_leaves(KdTree& tree, KdRopes& ropes) {
 }
 
 }  // namespace
+
+void remove_ropes(KdTree& tree, const KdRopes& ropes) {
+  parallel_for(tree.nodes.size(), kBuildChunkSize, [&](std::size_t i) {
+    KdNode& node = tree.nodes[i];
+    if (i != 1 && node.is_leaf()) node = KdNode::leaf(ropes.leaves[node.first()].first, node.count());
+  });
+}
 
 KdRopes add_ropes(KdTree& tree) {
   KdRopes ropes;

@@ -9,4 +9,7 @@ namespace grove {
 /// (Popov et al. 2007, section 3.1). O(nodes * depth) at most, in parallel; the same for any number of threads. Empty for an empty tree.
 [[nodiscard]] KdRopes add_ropes(KdTree& tree);
 
+/// Takes ropes away again: the leaves of the tree refer to their references as before.
+void remove_ropes(KdTree& tree, const KdRopes& ropes);
+
 }  // namespace grove

@@ -83,6 +83,13 @@ struct KdCostContext {
   float empty_bonus;
 
   [[nodiscard]] KdCellCost of(const Box4& cell) const { return {cell, area_scale, model, empty_bonus}; }
+  /// What the chance of being met is in proportion to: half the area; of a line its length.
+  [[nodiscard]] float measure(const Box4& cell) const {
+    const float area = scaled_half_area(cell, area_scale);
+    if (area > 0.0F) return area;
+    const Float4 side = (cell.upper - cell.lower) * splat(area_scale);
+    return side[0] + side[1] + side[2];
+  }
 };
 
 /// From here on a set is worth several tasks.

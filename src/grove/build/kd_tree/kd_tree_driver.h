@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "grove/base/parallel.h"
+#include "grove/build/kd_tree/kd_cell.h"
 #include "grove/build/kd_tree/kd_plane.h"
 #include "grove/build/kd_tree/kd_tree_part.h"
 #include "grove/build/kd_tree/kd_tree_settings.h"
@@ -36,21 +37,6 @@ namespace detail {
 
 /// Smaller sets are built by one task.
 inline constexpr std::size_t kKdTaskSize = 4096;
-
-/// A cell on its way to become a node.
-struct KdCell {
-  Box4 box;
-  std::uint32_t depth = 0;
-  std::uint32_t bad_planes = 0;
-  /// How many references the subtree may make.
-  std::uint64_t capacity = 0;
-
-  [[nodiscard]] KdCell child(int side, const KdPlane& plane, std::uint32_t bad_so_far, std::uint64_t child_capacity) const {
-    KdCell cell{box, depth + 1, bad_so_far, child_capacity};
-    (side == 0 ? cell.box.upper : cell.box.lower)[plane.axis] = plane.position;
-    return cell;
-  }
-};
 
 template <KdPlaneFinder P>
 class KdBuilder {
@@ -156,7 +142,7 @@ class KdBuilder<P>::Subtree {
   };
 
   Built build_node(const Set& set, const KdCell& cell, std::uint32_t node) {
-    const float area = cell_measure(cell.box);
+    const float area = builder_.finder_.costs().measure(cell.box);
     const float leaf_cost = area * static_cast<float>(builder_.settings_.cost.intersection) * static_cast<float>(set.references.size());
     KdPlane plane;
     if (!builder_.choose(set, cell, scratch_, plane)) {
@@ -192,15 +178,6 @@ class KdBuilder<P>::Subtree {
     for (const PrimitiveReference& reference : set.references) part_.references.push_back(reference.primitive());
     std::sort(part_.references.begin() + first, part_.references.end());
     part_.nodes[node] = KdNode::leaf(first, static_cast<std::uint32_t>(set.references.size()));
-  }
-
-  // Half the area; of a line its length.
-  [[nodiscard]] float cell_measure(const Box4& box) const {
-    const float scale = builder_.finder_.costs().area_scale;
-    const float area = scaled_half_area(box, scale);
-    if (area > 0.0F) return area;
-    const Float4 side = (box.upper - box.lower) * splat(scale);
-    return side[0] + side[1] + side[2];
   }
 
   const KdBuilder& builder_;

@@ -2,6 +2,7 @@
 
 // How tasks put a kd-tree together: each returns a part, and the parts are copied to their places at the end.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -17,7 +18,7 @@ struct KdTreePart {
   std::uint32_t depth = 0;
   int axis = 0;
   float position = 0.0F;
-  std::unique_ptr<KdTreePart> children[2];  ///< both or none; with them `nodes` and `references` are empty
+  std::array<std::unique_ptr<KdTreePart>, 2> children;  ///< both or none; with them `nodes` and `references` are empty
 
   [[nodiscard]] bool is_joined() const { return children[0] != nullptr; }
 };

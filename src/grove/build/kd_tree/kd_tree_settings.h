@@ -24,8 +24,7 @@ struct KdTreeSettings {
   std::uint32_t most_depth = 0;
   /// Sets of at most this many primitives are not parted. At least 1.
   std::uint32_t leaf_size = 1;
-  /// The ratio that serves hierarchies serves here as well: with tests at 0.35 of a step trees trace as fast as or faster than at 0.7, 1, 1.5 and 2, and are
-  /// smaller (docs/kdtree.md).
+  /// The ratio that serves hierarchies.
   CostModel cost = {};
   /// How many planes above each other may cost more than not parting at all, in the hope of better ones below.
   std::uint32_t bad_planes = 3;
