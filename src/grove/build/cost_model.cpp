@@ -6,6 +6,7 @@
 #include "grove/accel/bvh2.h"
 #include "grove/accel/fast_bvh.h"
 #include "grove/accel/kd_tree.h"
+#include "grove/accel/octree.h"
 #include "grove/accel/volume_bvh.h"
 #include "grove/accel/wide_bvh.h"
 
@@ -62,6 +63,17 @@ double expected_cost(const KdTree& tree, const CostModel& model) {
   tree.visit([&](const Box& cell, std::uint32_t /*depth*/, const KdNode& node) {
     const double probability = root_area > 0.0 ? measure.half_area(cell) / root_area : 1.0;
     sum += probability * (node.is_leaf() ? model.intersection * node.count() : model.traversal);
+  });
+  return sum;
+}
+
+double expected_cost(const Octree& tree, const CostModel& model) {
+  const AreaMeasure measure(tree.bounds);
+  const double root_area = measure.half_area(tree.bounds);
+  double sum = 0.0;
+  tree.visit([&](const Octree::Visited& visited) {
+    const double probability = root_area > 0.0 ? measure.half_area(visited.cell.intersection(tree.bounds)) / root_area : 1.0;
+    sum += probability * (visited.is_leaf ? model.intersection * visited.count : model.traversal);
   });
   return sum;
 }

@@ -13,6 +13,7 @@ namespace grove {
 struct Bvh2;
 class FastBvh;
 struct KdTree;
+struct Octree;
 template <int kWidth>
 struct WideBvh;
 template <BoundingVolume V>
@@ -53,6 +54,8 @@ template <int kWidth>
 [[nodiscard]] double expected_cost(const FastBvh& bvh, const CostModel& model);
 /// The same for a kd-tree, whose cells take the place of boxes.
 [[nodiscard]] double expected_cost(const KdTree& tree, const CostModel& model);
+/// The same for an octree, whose cells count as far as they lie in the bounds of the primitives.
+[[nodiscard]] double expected_cost(const Octree& tree, const CostModel& model);
 
 /// The same by the areas of the hierarchy's own volumes, for a ray that meets the volume of the root.
 template <BoundingVolume V>

@@ -43,6 +43,7 @@ concept Geometry = requires(const G& geometry, std::size_t i, const Box& box, co
   { geometry.size() } -> std::convertible_to<std::size_t>;
   { geometry.bounds(i) } -> std::same_as<Box>;
   { geometry.clip(i, box) } -> std::same_as<Box>;
+  { geometry.overlaps(i, box) } -> std::same_as<bool>;
   { geometry.prepare(ray) } -> std::convertible_to<typename G::PreparedRay>;
   { geometry.intersect(i, prepared, hit, counter) } -> std::same_as<bool>;
   { geometry.occluded(i, prepared, counter) } -> std::same_as<bool>;

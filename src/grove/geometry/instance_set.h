@@ -44,6 +44,7 @@ class InstanceSet {
   /// World bounds, with room for the rounding of rays into object space.
   [[nodiscard]] Box bounds(std::size_t i) const { return bounds_[i]; }
   [[nodiscard]] Box clip(std::size_t i, const Box& box) const { return bounds_[i].intersection(box); }
+  [[nodiscard]] bool overlaps(std::size_t i, const Box& box) const { return !clip(i, box).is_empty(); }
 
   [[nodiscard]] static PreparedRay prepare(const Ray& ray);
 

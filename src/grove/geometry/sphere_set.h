@@ -52,6 +52,8 @@ class SphereSet {
   [[nodiscard]] Box bounds(std::size_t i) const;
   /// Bounds of the sphere's surface inside `box`, conservative: the box intersection, or empty when the surface misses the box.
   [[nodiscard]] Box clip(std::size_t i, const Box& box) const;
+  /// Whether the sphere's surface shares a point with the closed box (Arvo 1990), conservative.
+  [[nodiscard]] bool overlaps(std::size_t i, const Box& box) const { return !clip(i, box).is_empty(); }
 
   /// As SampledGeometry asks.
   [[nodiscard]] double surface_area(std::size_t i) const;

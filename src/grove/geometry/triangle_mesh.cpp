@@ -11,6 +11,7 @@
 #include "grove/base/parallel.h"
 #include "grove/geometry/clip_triangle.h"
 #include "grove/geometry/part_table.h"
+#include "grove/geometry/triangle_box_overlap.h"
 
 namespace grove {
 
@@ -80,6 +81,12 @@ Box TriangleMesh::clip(std::size_t i, const Box& box) const {
   if (whole.is_empty() || box.contains(whole)) return whole;
   const Triangle& triangle = triangles_[i];
   return clip_triangle(vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z], box);
+}
+
+bool TriangleMesh::overlaps(std::size_t i, const Box& box) const {
+  if (bounds(i).is_empty()) return false;
+  const Triangle& triangle = triangles_[i];
+  return overlaps_box(vertices_[triangle.x], vertices_[triangle.y], vertices_[triangle.z], box);
 }
 
 double TriangleMesh::surface_area(std::size_t i) const {

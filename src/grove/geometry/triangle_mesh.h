@@ -66,6 +66,9 @@ class TriangleMesh {
   /// Bounds of the part of triangle i inside `box`: exact up to outward rounding; empty when they do not meet.
   [[nodiscard]] Box clip(std::size_t i, const Box& box) const;
 
+  /// Whether triangle i itself, not only its bounds, shares a point with the closed box; false when it can never be hit. Conservative by rounding in double.
+  [[nodiscard]] bool overlaps(std::size_t i, const Box& box) const;
+
   /// As SampledGeometry asks.
   [[nodiscard]] double surface_area(std::size_t i) const;
   [[nodiscard]] glm::dvec3 surface_point(std::size_t i, double u, double v) const;

@@ -30,6 +30,7 @@ class UserGeometry {
   [[nodiscard]] virtual bool intersect_primitive(std::size_t i, const Ray& ray, Hit& hit) const = 0;
 
   [[nodiscard]] Box clip(std::size_t i, const Box& box) const { return bounds(i).intersection(box); }
+  [[nodiscard]] bool overlaps(std::size_t i, const Box& box) const { return !clip(i, box).is_empty(); }
   [[nodiscard]] static PreparedRay prepare(const Ray& ray) { return ray; }
 
   template <typename Counter>

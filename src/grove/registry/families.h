@@ -22,6 +22,10 @@ struct RegistryRow {
 
 [[nodiscard]] StructureFamily describe_fast();
 [[nodiscard]] std::unique_ptr<Accelerator> build_fast(const Spec& spec, const GeometryPointer& geometry);
+
+[[nodiscard]] StructureFamily describe_octree();
+[[nodiscard]] std::unique_ptr<Accelerator> build_octree(const Spec& spec, const GeometryPointer& geometry);
+
 [[nodiscard]] StructureFamily describe_kd_tree();
 [[nodiscard]] std::unique_ptr<Accelerator> build_kd_tree(const Spec& spec, const GeometryPointer& geometry);
 

@@ -13,6 +13,7 @@ constexpr RegistryRow kRows[] = {
     {describe_bvh, build_bvh},
     {describe_fast, build_fast},
     {describe_kd_tree, build_kd_tree},
+    {describe_octree, build_octree},
 };
 
 constexpr std::string_view kRepresentativeSpecs[] = {
@@ -39,6 +40,8 @@ constexpr std::string_view kRepresentativeSpecs[] = {
     "kdtree:split=object-median",
     "kdtree:split=spatial-median",
     "kdtree:walk=ropes",
+    "octree",
+    "octree:store=inner",
 };
 
 }  // namespace

@@ -1,0 +1,163 @@
+#pragma once
+
+// Builds a draft of an octree from the root down, whatever chooses the planes: recursion, tasks, depth, when to stop, and how many references there may be.
+
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "grove/base/parallel.h"
+#include "grove/build/octree/octree_draft.h"
+#include "grove/build/octree/octree_settings.h"
+#include "grove/build/octree/part_octants.h"
+
+namespace grove {
+
+/// Chooses where a cell is cut, by its set alone; no axis is cut (OctantCut::axes 0) where that is not worth it. `places` are those of the set's references.
+/// `Scratch` is what a task needs for itself.
+template <typename P>
+concept OctreePlanes = requires(const P& planes, const OctantSource& source, const Box4& cell, std::span<const std::uint32_t> places,
+                                typename P::Scratch& scratch) {
+  { planes.choose(source, cell, places, scratch) } -> std::same_as<OctantCut>;
+};
+
+namespace detail {
+
+/// Smaller sets are built by one task.
+inline constexpr std::size_t kOctreeTaskSize = 8192;
+
+/// A cell on its way to become a node.
+struct OctreeCell {
+  Box4 box;
+  std::uint32_t depth = 0;
+  /// How many references the subtree may make.
+  std::uint64_t capacity = 0;
+};
+
+template <OctreePlanes P>
+class OctreeBuilder {
+ public:
+  OctreeBuilder(const P& planes, const OctantSource& source, const OctreeSettings& settings, std::uint32_t most_depth)
+      : planes_(planes), source_(source), settings_(settings), most_depth_(most_depth) {}
+
+  /// Tasks above, one task's work below. `places` is emptied.
+  OctreeDraft build(Places& places, const OctreeCell& cell) const {
+    if (places.size() <= kOctreeTaskSize) return Subtree(*this).build(places, cell);
+    OctantSets sets;
+    OctantCut cut;
+    {
+      typename P::Scratch scratch;
+      if (!part(places, cell, scratch, cut, sets)) return Subtree(*this).leaf_only(places);
+    }
+    Places().swap(places);
+    OctreeDraft draft;
+    draft.root = DraftSlot::node(0);
+    DraftNode& node = draft.nodes.emplace_back();
+    node.planes = to_vec3(cut.planes);
+    node.cut_axes = static_cast<std::uint8_t>(cut.axes);
+    append_references(source_, sets.own(), draft.references);
+    node.own = {0, static_cast<std::uint32_t>(draft.references.size())};
+    std::vector<std::uint32_t> octants;
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+      if (sets.count(octant) == 0) continue;
+      node.octants[octant] = DraftSlot::part(octants.size());
+      octants.push_back(octant);
+    }
+    draft.parts.resize(octants.size());
+    parallel_for(octants.size(), 1, [&](std::size_t i) {
+      const std::span<const std::uint32_t> set = sets.of(octants[i]);
+      Places child(set.begin(), set.end());
+      draft.parts[i] = std::make_unique<OctreeDraft>(build(child, child_cell(cell, cut, sets, octants[i])));
+    });
+    return draft;
+  }
+
+ private:
+  class Subtree;
+
+  // Whether a set is to be cut; if so, where, and what lies in each octant.
+  bool part(std::span<const std::uint32_t> places, const OctreeCell& cell, typename P::Scratch& scratch, OctantCut& cut,
+            OctantSets& sets) const {
+    if (places.size() <= settings_.leaf_size || cell.depth >= most_depth_) return false;
+    cut = planes_.choose(source_, cell.box, places, scratch);
+    if (cut.axes == 0) return false;
+    sets.part(source_, cut, places, settings_.store);
+    return sets.total() <= cell.capacity;
+  }
+
+  // Room for more references is shared in proportion to those that there are.
+  static OctreeCell child_cell(const OctreeCell& cell, const OctantCut& cut, const OctantSets& sets, std::uint32_t octant) {
+    const std::uint64_t count = sets.count(octant);
+    const std::uint64_t slack = cell.capacity - sets.total();
+    const auto share = static_cast<std::uint64_t>(static_cast<double>(slack) * static_cast<double>(count) / static_cast<double>(sets.total()));
+    return {cut.octant(octant), cell.depth + 1, count + share};
+  }
+
+  const P& planes_;
+  const OctantSource& source_;
+  const OctreeSettings& settings_;
+  std::uint32_t most_depth_;
+};
+
+/// One task's work: recursion over sets that are kept by level and used again.
+template <OctreePlanes P>
+class OctreeBuilder<P>::Subtree {
+ public:
+  explicit Subtree(const OctreeBuilder& builder) : builder_(builder) {}
+
+  OctreeDraft build(std::span<const std::uint32_t> places, const OctreeCell& cell) {
+    first_depth_ = cell.depth;
+    draft_.root = build_slot(places, cell);
+    return std::move(draft_);
+  }
+
+  OctreeDraft leaf_only(std::span<const std::uint32_t> places) {
+    draft_.root = make_leaf(places);
+    return std::move(draft_);
+  }
+
+ private:
+  DraftSlot build_slot(std::span<const std::uint32_t> places, const OctreeCell& cell) {
+    const std::size_t level = cell.depth - first_depth_;
+    if (levels_.size() <= level) levels_.push_back(std::make_unique<OctantSets>());
+    OctantSets& sets = *levels_[level];
+    OctantCut cut;
+    if (!builder_.part(places, cell, scratch_, cut, sets)) return make_leaf(places);
+    const std::size_t number = draft_.nodes.size();
+    {
+      DraftNode& node = draft_.nodes.emplace_back();
+      node.planes = to_vec3(cut.planes);
+      node.cut_axes = static_cast<std::uint8_t>(cut.axes);
+      node.own = append(sets.own());
+    }
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+      if (sets.count(octant) == 0) continue;
+      const DraftSlot slot = build_slot(sets.of(octant), child_cell(cell, cut, sets, octant));
+      draft_.nodes[number].octants[octant] = slot;
+    }
+    return DraftSlot::node(number);
+  }
+
+  DraftLeaf append(std::span<const std::uint32_t> places) {
+    const auto first = static_cast<std::uint32_t>(draft_.references.size());
+    append_references(builder_.source_, places, draft_.references);
+    return {first, static_cast<std::uint32_t>(places.size())};
+  }
+
+  DraftSlot make_leaf(std::span<const std::uint32_t> places) {
+    draft_.leaves.push_back(append(places));
+    return DraftSlot::leaf(draft_.leaves.size() - 1);
+  }
+
+  const OctreeBuilder& builder_;
+  OctreeDraft draft_;
+  typename P::Scratch scratch_;
+  std::vector<std::unique_ptr<OctantSets>> levels_;
+  std::uint32_t first_depth_ = 0;
+};
+
+}  // namespace detail
+}  // namespace grove

@@ -1,0 +1,91 @@
+#include "grove/base/check.h"
+#include "grove/base/timer.h"
+#include "grove/build/cost_model.h"
+#include "grove/build/octree/build_octree.h"
+#include "grove/registry/families.h"
+#include "grove/registry/octree_statistics.h"
+#include "grove/registry/structure_accelerator.h"
+#include "grove/traverse/traceable_octree.h"
+
+namespace grove {
+namespace {
+
+struct OctreeOptions {
+  explicit OctreeOptions(const Spec& spec) {
+    settings.store = spec.value("store") == "inner" ? OctreeStore::inner : OctreeStore::leaf;
+    settings.most_depth = static_cast<std::uint32_t>(spec.number("max-depth"));
+    settings.leaf_size = static_cast<std::uint32_t>(spec.number("leaf-size"));
+    // Where each primitive is referenced once there is nothing to remember.
+    const bool is_wanted = spec.value("mailbox") == "true" && settings.store == OctreeStore::leaf;
+    mailbox = is_wanted ? UseMailbox::yes : UseMailbox::no;
+  }
+
+  OctreeSettings settings;
+  UseMailbox mailbox;
+};
+
+template <Geometry G>
+StructureState<TraceableOctree<G>> build_state(const G& geometry, const OctreeOptions& options) {
+  const Timer timer;
+  Octree tree = build_octree(geometry, options.settings);
+  GROVE_ASSERT(tree.validate(geometry.size()).empty());
+  TraceableOctree<G> structure(std::move(tree), geometry, options.mailbox);
+  const double seconds = timer.seconds();
+  const Box bounds = structure.tree.bounds;
+  return {std::move(structure), bounds, seconds, {}};
+}
+
+template <Geometry G>
+std::unique_ptr<Accelerator> build_over(const Spec& spec, std::shared_ptr<const G> geometry) {
+  using Structure = TraceableOctree<G>;
+  using State = StructureState<Structure>;
+  const OctreeOptions options(spec);
+  const auto count = [](const State& state, const G& /*geometry*/) {
+    StructureStatistics statistics = count_nodes(state.structure.tree);
+    statistics.expected_cost = expected_cost(state.structure.tree, CostModel());
+    statistics.bytes = state.structure.memory();
+    return statistics;
+  };
+  const auto view = [](const Structure& structure, const std::function<void(const NodeView&)>& visit) {
+    view_nodes(structure.tree, visit);
+  };
+  // Overlap is a measure of hierarchies: cells have none.
+  const auto measure = [](const Structure&, const G&) { return StructureQuality{}; };
+  const auto update = [options](State& state, const G& set, const UpdateSettings& /*settings*/) {
+    UpdateReport report;
+    report.built_cost = expected_cost(state.structure.tree, CostModel());
+    state = build_state(set, options);
+    report.cost = expected_cost(state.structure.tree, CostModel());
+    report.rebuilt_references = state.structure.tree.references.size();
+    report.seconds = state.build_seconds;
+    return report;
+  };
+  State state = build_state(*geometry, options);
+  return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), count, view, measure,
+                                                              update);
+}
+
+}  // namespace
+
+StructureFamily describe_octree() {
+  return {
+      "octree",
+      "octree: cells cut in eight, each primitive in every cell that it reaches into or in the one that encloses it",
+      {
+          {"store", {"leaf", "inner"}, 0, 0, 0, "where a primitive is referenced: in all leaves that it overlaps, or in the smallest node that encloses it"},
+          {"mailbox",
+           {"true", "false"},
+           0,
+           0,
+           0,
+           "whether a ray remembers what it was tested against, so as not to test it in the next cell again"},
+          {"max-depth", {}, 0, 24, 0, "most cuts above a leaf; 0 for (8 + 1.3 log2 of the number of primitives) / 3"},
+          {"leaf-size", {}, 1, 64, 8, "sets of at most this many primitives are not cut"},
+      }};
+}
+
+std::unique_ptr<Accelerator> build_octree(const Spec& spec, const GeometryPointer& geometry) {
+  return std::visit([&](const auto& set) { return build_over(spec, set); }, geometry);
+}
+
+}  // namespace grove
