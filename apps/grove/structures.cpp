@@ -28,6 +28,8 @@ std::string as_text() {
       }
       text += '\n' + table.text();
     }
+    for (const ShortSpec& short_for : family.shorts)
+      text += fmt::format("\n  {} is short for {}:{}={}\n", short_for.name, family.name, short_for.key, short_for.value);
     text += '\n';
   }
   return text + fmt::format("A structure is named family or family:key=value,key=value; the default is {}.\n", kDefaultSpec);
@@ -49,7 +51,10 @@ std::string as_json() {
       }
       keys.push_back(std::move(entry));
     }
-    families.push_back({{"name", family.name}, {"summary", family.summary}, {"keys", std::move(keys)}});
+    nlohmann::ordered_json shorts = nlohmann::ordered_json::array();
+    for (const ShortSpec& short_for : family.shorts)
+      shorts.push_back({{"name", short_for.name}, {"key", short_for.key}, {"value", short_for.value}});
+    families.push_back({{"name", family.name}, {"summary", family.summary}, {"keys", std::move(keys)}, {"shorts", std::move(shorts)}});
   }
   const nlohmann::ordered_json json{
       {"default", kDefaultSpec}, {"families", std::move(families)}, {"representative_specs", representative_specs()}};

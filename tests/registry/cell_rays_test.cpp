@@ -1,4 +1,4 @@
-// Rays that aim at the cells of a kd-tree: lying in its planes, along the edges and through the corners of its cells, from and to both sides. Hits must
+// Rays that aim at the cells of a kd-tree or an octree: lying in its planes, along the edges and through the corners of its cells, from and to both sides. Hits must
 // be those of brute force, bit for bit, also where primitives lie in the planes.
 
 #include <gtest/gtest.h>
@@ -85,6 +85,12 @@ INSTANTIATE_TEST_SUITE_P(KdTree, CellRays,
                          testing::Values("kdtree", "kdtree:walk=ropes", "kdtree:clip=false,walk=ropes,mailbox=false",
                                          "kdtree:split=binned,mailbox=false", "kdtree:split=object-median,walk=ropes",
                                          "kdtree:split=spatial-median,walk=ropes", "kdtree:split=spatial-median,clip=false"),
+                         [](const auto& test) { return as_test_name(test.param); });
+
+INSTANTIATE_TEST_SUITE_P(Octree, CellRays, testing::Values("octree", "octree:mailbox=false,leaf-size=1", "octree:store=inner",
+                                         "octree:walk=neighbour", "octree:walk=neighbour,leaf-size=1", "octree:store=inner,walk=neighbour",
+                                         "octree-r", "octree-r:walk=neighbour", "octree-r:walk=neighbour,planes=events,leaf-size=1",
+                                         "octree-r:planes=joint,walk=neighbour,mailbox=false"),
                          [](const auto& test) { return as_test_name(test.param); });
 
 }  // namespace

@@ -25,6 +25,14 @@ TEST(Spec, CanonicalFormNamesOnlyWhatDiffersFromTheDefaults) {
   EXPECT_EQ(canonical_spec("brute"), "brute");
 }
 
+TEST(Spec, AShortNameSetsItsKey) {
+  EXPECT_EQ(canonical_spec("octree-r"), "octree:split=octree-r");
+  EXPECT_EQ(canonical_spec("octree-r:candidates=4"), "octree:split=octree-r,candidates=4");
+  EXPECT_THAT(message_of("octree-r:split=median"), HasSubstr("twice"));
+  EXPECT_THAT(message_of("octree-r:colour=red"), HasSubstr("octree"));
+  EXPECT_THAT(message_of("quadtree"), HasSubstr("octree-r"));
+}
+
 TEST(Spec, ErrorsListWhatIsAllowed) {
   EXPECT_THAT(message_of("quadtree"), HasSubstr("brute, bvh"));
   EXPECT_THAT(message_of(""), HasSubstr("brute, bvh"));

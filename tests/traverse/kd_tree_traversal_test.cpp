@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <vector>
 
-#include "grove/base/random.h"
 #include "grove/traverse/kd_rope_traversal.h"
 #include "grove/traverse/mailbox.h"
+#include "traverse/leaf_walks.h"
 
 namespace grove {
 namespace {
 
-constexpr std::uint32_t kSide = 8;
+using testing::kSide;
 
 // The unit cube in 8 * 8 * 8 cells, by halving x, y, z in turn; leaf i has the one reference i. Ropes are the neighbouring leaves themselves.
 struct Grid {
@@ -67,97 +67,24 @@ struct Grid {
   }
 };
 
-// The stretch of a ray inside a box, in double.
-struct Stretch {
-  double first, last;
-};
-Stretch inside(const Ray& ray, const Box& box) {
-  Stretch stretch{0.0, ray.t_max};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double d = ray.direction[axis];
-    const double a = (static_cast<double>(box.lower[axis]) - ray.origin[axis]) / d;
-    const double b = (static_cast<double>(box.upper[axis]) - ray.origin[axis]) / d;
-    stretch.first = std::fmax(stretch.first, std::fmin(a, b));
-    stretch.last = std::fmin(stretch.last, std::fmax(a, b));
-  }
-  return stretch;
-}
-
-// The leaves that a ray crosses for more than rounding must be visited, near to far; others only where it comes that near to them.
-void expect_leaves_along(const Grid& grid, const Ray& ray, const std::vector<std::uint32_t>& visited) {
-  constexpr double kRounding = 1e-4;
-  double last = 0.0;
-  for (const std::uint32_t leaf : visited) {
-    const Stretch stretch = inside(ray, grid.cells[leaf]);
-    EXPECT_GE(stretch.last - stretch.first, -kRounding);
-    EXPECT_GE(stretch.first, last - kRounding);
-    last = stretch.first;
-  }
-  for (std::uint32_t leaf = 0; leaf < grid.cells.size(); ++leaf) {
-    const Stretch stretch = inside(ray, grid.cells[leaf]);
-    if (stretch.last - stretch.first > kRounding) {
-      EXPECT_TRUE(std::find(visited.begin(), visited.end(), leaf) != visited.end()) << leaf;
-    }
-  }
-}
-
-template <typename Walk>
-void expect_walk_finds_leaves(const Grid& grid, const Walk& walk_leaves) {
-  Random random(1);
-  for (int trial = 0; trial < 500; ++trial) {
-    const Vec3 from = Vec3(-0.5F) + 2.0F * Vec3(random.next_float(), random.next_float(), random.next_float());
-    // To anywhere, and to corners of cells.
-    Vec3 to(random.next_float(), random.next_float(), random.next_float());
-    if (trial % 3 == 0) to = glm::round(to * static_cast<float>(kSide)) / static_cast<float>(kSide);
-    const Ray ray{from, 0.0F, to - from, trial % 2 == 0 ? 1.0F : std::numeric_limits<float>::infinity()};
-    std::vector<std::uint32_t> visited;
-    walk_leaves(ray, [&](std::uint32_t first, std::uint32_t count) {
-      EXPECT_EQ(count, 1U);
-      visited.push_back(first);
-      return false;
-    });
-    expect_leaves_along(grid, ray, visited);
-  }
-}
-
 TEST(KdTreeWalk, VisitsTheLeavesAlongARay) {
   const Grid grid;
   ASSERT_EQ(grid.tree.validate(grid.cells.size()), "");
   NoCounter counter;
-  expect_walk_finds_leaves(grid, [&](const Ray& ray, const auto& leaf) { walk(grid.tree, ray, ray.t_max, leaf, counter); });
+  testing::expect_walk_finds_leaves(grid.cells, [&](const Ray& ray, const auto& leaf) { walk(grid.tree, ray, ray.t_max, leaf, counter); });
 }
 
 TEST(KdRopeWalk, VisitsTheLeavesAlongARay) {
   const Grid grid;
   NoCounter counter;
-  expect_walk_finds_leaves(grid, [&](const Ray& ray, const auto& leaf) { walk(grid.roped, grid.ropes, ray, ray.t_max, leaf, counter); });
-}
-
-// A ray in a plane, along an edge, or through a corner, touches the cells on all sides.
-template <typename Walk>
-void expect_all_sides(const Walk& walk_leaves) {
-  const auto count_leaves = [&](const Ray& ray) {
-    std::vector<std::uint32_t> visited;
-    walk_leaves(ray, [&](std::uint32_t first, std::uint32_t /*count*/) {
-      visited.push_back(first);
-      return false;
-    });
-    std::sort(visited.begin(), visited.end());
-    visited.erase(std::unique(visited.begin(), visited.end()), visited.end());
-    return visited.size();
-  };
-  EXPECT_EQ(count_leaves({{0.5F, -1.0F, 0.3F}, 0.0F, {0.0F, 1.0F, 0.0F}}), 2U * kSide);
-  EXPECT_EQ(count_leaves({{0.5F, -1.0F, 0.25F}, 0.0F, {-0.0F, 1.0F, 0.0F}}), 4U * kSide);
-  EXPECT_EQ(count_leaves({{0.0F, 2.0F, 1.0F}, 0.0F, {0.0F, -1.0F, 0.0F}}), kSide);
-  // Along the diagonal through all corners: eight cells meet at each of the seven inside.
-  EXPECT_EQ(count_leaves({{-1.0F, -1.0F, -1.0F}, 0.0F, {1.0F, 1.0F, 1.0F}}), kSide + 6U * (kSide - 1));
+  testing::expect_walk_finds_leaves(grid.cells, [&](const Ray& ray, const auto& leaf) { walk(grid.roped, grid.ropes, ray, ray.t_max, leaf, counter); });
 }
 
 TEST(KdTreeWalk, GoesToAllSidesOfPlanesEdgesAndCorners) {
   const Grid grid;
   NoCounter counter;
-  expect_all_sides([&](const Ray& ray, const auto& leaf) { walk(grid.tree, ray, ray.t_max, leaf, counter); });
-  expect_all_sides([&](const Ray& ray, const auto& leaf) { walk(grid.roped, grid.ropes, ray, ray.t_max, leaf, counter); });
+  testing::expect_all_sides([&](const Ray& ray, const auto& leaf) { walk(grid.tree, ray, ray.t_max, leaf, counter); });
+  testing::expect_all_sides([&](const Ray& ray, const auto& leaf) { walk(grid.roped, grid.ropes, ray, ray.t_max, leaf, counter); });
 }
 
 TEST(KdTreeWalk, EndsWhereNoNearerHitCanBe) {

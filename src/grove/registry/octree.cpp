@@ -10,8 +10,16 @@
 namespace grove {
 namespace {
 
+OctreeRSearch parse_search(const std::string& name) {
+  if (name == "events") return OctreeRSearch::events;
+  return name == "joint" ? OctreeRSearch::joint : OctreeRSearch::candidates;
+}
+
 struct OctreeOptions {
-  explicit OctreeOptions(const Spec& spec) {
+  explicit OctreeOptions(const Spec& spec) : walk(spec.value("walk") == "neighbour" ? OctreeWalk::neighbour : OctreeWalk::top_down) {
+    settings.split = spec.value("split") == "octree-r" ? OctreeSplit::octree_r : OctreeSplit::median;
+    settings.search = parse_search(spec.value("planes"));
+    settings.candidate_count = static_cast<std::uint32_t>(spec.number("candidates"));
     settings.store = spec.value("store") == "inner" ? OctreeStore::inner : OctreeStore::leaf;
     settings.most_depth = static_cast<std::uint32_t>(spec.number("max-depth"));
     settings.leaf_size = static_cast<std::uint32_t>(spec.number("leaf-size"));
@@ -21,6 +29,7 @@ struct OctreeOptions {
   }
 
   OctreeSettings settings;
+  OctreeWalk walk;
   UseMailbox mailbox;
 };
 
@@ -29,7 +38,7 @@ StructureState<TraceableOctree<G>> build_state(const G& geometry, const OctreeOp
   const Timer timer;
   Octree tree = build_octree(geometry, options.settings);
   GROVE_ASSERT(tree.validate(geometry.size()).empty());
-  TraceableOctree<G> structure(std::move(tree), geometry, options.mailbox);
+  TraceableOctree<G> structure(std::move(tree), geometry, options.walk, options.mailbox);
   const double seconds = timer.seconds();
   const Box bounds = structure.tree.bounds;
   return {std::move(structure), bounds, seconds, {}};
@@ -72,7 +81,19 @@ StructureFamily describe_octree() {
       "octree",
       "octree: cells cut in eight, each primitive in every cell that it reaches into or in the one that encloses it",
       {
+          {"split",
+           {"median", "octree-r"},
+           0,
+           0,
+           0,
+           "where cells are cut: in the middle, or where the fewest tests are expected (octree-R)"},
           {"store", {"leaf", "inner"}, 0, 0, 0, "where a primitive is referenced: in all leaves that it overlaps, or in the smallest node that encloses it"},
+          {"walk",
+           {"top-down", "neighbour"},
+           0,
+           0,
+           0,
+           "how a ray comes from leaf to leaf: down from the root, nearer octants first, or from cell to neighbouring cell"},
           {"mailbox",
            {"true", "false"},
            0,
@@ -81,7 +102,15 @@ StructureFamily describe_octree() {
            "whether a ray remembers what it was tested against, so as not to test it in the next cell again"},
           {"max-depth", {}, 0, 24, 0, "most cuts above a leaf; 0 for (8 + 1.3 log2 of the number of primitives) / 3"},
           {"leaf-size", {}, 1, 64, 8, "sets of at most this many primitives are not cut"},
-      }};
+          {"planes",
+           {"candidates", "events", "joint"},
+           0,
+           0,
+           0,
+           "octree-r: tries planes between the medians, or all in which primitives begin or end, for each axis; or planes of the three axes together"},
+          {"candidates", {}, 1, 64, 8, "octree-r: planes tried for each axis between the medians, at most 16 with planes=joint"},
+      },
+      {{"octree-r", "split", "octree-r"}}};
 }
 
 std::unique_ptr<Accelerator> build_octree(const Spec& spec, const GeometryPointer& geometry) {

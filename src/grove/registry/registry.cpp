@@ -42,6 +42,10 @@ constexpr std::string_view kRepresentativeSpecs[] = {
     "kdtree:walk=ropes",
     "octree",
     "octree:store=inner",
+    "octree:walk=neighbour",
+    "octree:split=octree-r",
+    "octree:split=octree-r,planes=events",
+    "octree:split=octree-r,planes=joint",
 };
 
 }  // namespace

@@ -32,11 +32,19 @@ struct SpecKey {
   [[nodiscard]] std::string default_value() const { return is_number() ? std::to_string(default_number) : std::string(values.front()); }
 };
 
+/// A name of its own for a value of one key of a family.
+struct ShortSpec {
+  std::string_view name;
+  std::string_view key;
+  std::string_view value;
+};
+
 /// A family of structures: what `grove structures` lists.
 struct StructureFamily {
   std::string_view name;
   std::string_view summary;
   std::vector<SpecKey> keys;
+  std::vector<ShortSpec> shorts = {};
 };
 
 /// All registered families, in the order they are listed.

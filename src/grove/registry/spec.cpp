@@ -14,11 +14,21 @@ std::string join(const std::vector<std::string_view>& words) {
   return line;
 }
 
-const StructureFamily& find_family(std::string_view name) {
+// A family, and the key that its short name sets, if it was called by one.
+struct NamedFamily {
+  const StructureFamily* family;
+  const ShortSpec* short_for = nullptr;
+};
+
+NamedFamily find_family(std::string_view name) {
   std::vector<std::string_view> known;
   for (const StructureFamily& family : structure_families()) {
-    if (family.name == name) return family;
+    if (family.name == name) return {&family};
     known.push_back(family.name);
+    for (const ShortSpec& short_for : family.shorts) {
+      if (short_for.name == name) return {&family, &short_for};
+      known.push_back(short_for.name);
+    }
   }
   throw UsageError("unknown structure '" + std::string(name) + "'; there are: " + join(known));
 }
@@ -52,11 +62,16 @@ void check_value(const StructureFamily& family, const SpecKey& key, std::string_
 Spec Spec::parse(std::string_view text) {
   const std::size_t colon = text.find(':');
   Spec spec;
-  spec.family_ = &find_family(text.substr(0, colon));
+  const auto [family, short_for] = find_family(text.substr(0, colon));
+  spec.family_ = family;
   for (const SpecKey& key : spec.family_->keys) spec.values_.emplace(key.name, key.default_value());
+  std::vector<std::string_view> seen;
+  if (short_for != nullptr) {
+    spec.values_.find(short_for->key)->second = short_for->value;
+    seen.push_back(short_for->key);
+  }
   if (colon == std::string_view::npos) return spec;
 
-  std::vector<std::string_view> seen;
   std::string_view rest = text.substr(colon + 1);
   for (bool more = true; more;) {
     const std::size_t comma = rest.find(',');

@@ -11,7 +11,7 @@ namespace grove {
 /// A checked spec: every key of its family has a value.
 class Spec {
  public:
-  /// Parses "family" or "family:key=value,key=value". Throws UsageError that lists what is allowed for what is wrong.
+  /// Parses "family" or "family:key=value,key=value", where the family may be named by one of its short names. Throws UsageError that lists what is allowed for what is wrong.
   [[nodiscard]] static Spec parse(std::string_view text);
 
   [[nodiscard]] const StructureFamily& family() const { return *family_; }

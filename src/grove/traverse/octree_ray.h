@@ -49,6 +49,18 @@ struct OctreeRay {
     }
   }
 
+  /// Where the ray has come in through all faces of the box that it meets from outside; `first` where it is inside by then.
+  [[nodiscard]] float last_entry(const Box& box, float first) const {
+    Vec3 near;
+    for (int axis = 0; axis < 3; ++axis) near[axis] = (flip >> axis & 1U) != 0 ? box.upper[axis] : box.lower[axis];
+    const Float4 inside = departure(to_float4(near));
+    float last = first;
+    // Written so that NaN spoils the answer: then nothing is certain.
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(inside[axis] <= last)) last = inside[axis];
+    return last;
+  }
+
   /// A mask of octants by their numbers in the octree as one by the numbers here, or the other way round.
   [[nodiscard]] std::uint32_t flipped(std::uint32_t mask) const {
     static constexpr std::array<std::array<std::uint8_t, 256>, 8> kFlipped = [] {

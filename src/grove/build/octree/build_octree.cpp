@@ -5,6 +5,7 @@
 
 #include "grove/build/octree/middle_planes.h"
 #include "grove/build/octree/octree_builder.h"
+#include "grove/build/octree/octree_r_planes.h"
 #include "grove/build/octree/pack_octree.h"
 
 namespace grove {
@@ -32,14 +33,19 @@ Octree build_octree(const ReferenceList& list, const OverlapTest& overlap, const
   if (list.references.empty()) return {};
   const std::size_t size = list.references.size();
   const OctantSource source{list.references, overlap};
-  const Box cell = cube_around(list.bounds);
+  // Planes that go by costs part the box of the scene as it is.
+  const bool is_octree_r = settings.split == OctreeSplit::octree_r;
+  const Box cell = is_octree_r ? list.bounds : cube_around(list.bounds);
   const detail::OctreeCell root{
       {to_float4(cell.lower), to_float4(cell.upper)}, 0, static_cast<std::uint64_t>(settings.most_references * static_cast<double>(size))};
   Places places(size);
   std::iota(places.begin(), places.end(), 0U);
-  const MiddlePlanes planes;
-  const detail::OctreeBuilder<MiddlePlanes> builder(planes, source, settings, most_depth(settings, size));
-  return pack_octree(builder.build(places, root), list.bounds, cell);
+  const auto drive = [&](const auto& planes) {
+    const detail::OctreeBuilder builder(planes, source, settings, most_depth(settings, size));
+    return pack_octree(builder.build(places, root), list.bounds, cell);
+  };
+  if (is_octree_r) return drive(OctreeRPlanes(settings.search, settings.candidate_count));
+  return drive(MiddlePlanes());
 }
 
 }  // namespace grove

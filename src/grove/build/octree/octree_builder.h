@@ -1,6 +1,9 @@
 #pragma once
 
 // Builds a draft of an octree from the root down, whatever chooses the planes: recursion, tasks, depth, when to stop, and how many references there may be.
+//
+// An octree is cut until leaves are small or deep enough. Octree-R stops besides where cuts cost more than they save, once that has happened several times
+// above each other; what such hope has made in vain is taken back: a subtree that costs more than one leaf in its place becomes that leaf.
 
 #include <algorithm>
 #include <concepts>
@@ -11,6 +14,7 @@
 
 #include "grove/base/parallel.h"
 #include "grove/build/octree/octree_draft.h"
+#include "grove/build/octree/octree_r_cost.h"
 #include "grove/build/octree/octree_settings.h"
 #include "grove/build/octree/part_octants.h"
 
@@ -35,6 +39,7 @@ struct OctreeCell {
   std::uint32_t depth = 0;
   /// How many references the subtree may make.
   std::uint64_t capacity = 0;
+  std::uint32_t bad_cuts = 0;
 };
 
 template <OctreePlanes P>
@@ -52,6 +57,7 @@ class OctreeBuilder {
       typename P::Scratch scratch;
       if (!part(places, cell, scratch, cut, sets)) return Subtree(*this).leaf_only(places);
     }
+    const std::uint32_t bad_cuts = cell.bad_cuts + (is_bad(cut, sets, places.size()) ? 1 : 0);
     Places().swap(places);
     OctreeDraft draft;
     draft.root = DraftSlot::node(0);
@@ -70,7 +76,7 @@ class OctreeBuilder {
     parallel_for(octants.size(), 1, [&](std::size_t i) {
       const std::span<const std::uint32_t> set = sets.of(octants[i]);
       Places child(set.begin(), set.end());
-      draft.parts[i] = std::make_unique<OctreeDraft>(build(child, child_cell(cell, cut, sets, octants[i])));
+      draft.parts[i] = std::make_unique<OctreeDraft>(build(child, child_cell(cell, cut, sets, octants[i], bad_cuts)));
     });
     return draft;
   }
@@ -85,15 +91,26 @@ class OctreeBuilder {
     cut = planes_.choose(source_, cell.box, places, scratch);
     if (cut.axes == 0) return false;
     sets.part(source_, cut, places, settings_.store);
-    return sets.total() <= cell.capacity;
+    return sets.total() <= cell.capacity && (cell.bad_cuts < settings_.bad_cuts || !is_bad(cut, sets, places.size()));
   }
 
+  // Whether a cut, with leaves below, would cost more than a leaf in its place. Only octree-R asks.
+  bool is_bad(const OctantCut& cut, const OctantSets& sets, std::size_t count) const {
+    if (settings_.split == OctreeSplit::median) return false;
+    double tests = static_cast<double>(sets.own().size());
+    for (std::uint32_t octant = 0; octant < 8; ++octant) tests += chance_of_octant(cut, octant) * sets.count(octant);
+    return ray_cost(1.0, settings_.cost.traversal, tests, settings_.cost.intersection) > leaf_cost(count);
+  }
+
+  [[nodiscard]] double leaf_cost(std::size_t count) const { return settings_.cost.intersection * static_cast<double>(count); }
+
   // Room for more references is shared in proportion to those that there are.
-  static OctreeCell child_cell(const OctreeCell& cell, const OctantCut& cut, const OctantSets& sets, std::uint32_t octant) {
+  static OctreeCell child_cell(const OctreeCell& cell, const OctantCut& cut, const OctantSets& sets, std::uint32_t octant,
+                               std::uint32_t bad_cuts) {
     const std::uint64_t count = sets.count(octant);
     const std::uint64_t slack = cell.capacity - sets.total();
     const auto share = static_cast<std::uint64_t>(static_cast<double>(slack) * static_cast<double>(count) / static_cast<double>(sets.total()));
-    return {cut.octant(octant), cell.depth + 1, count + share};
+    return {cut.octant(octant), cell.depth + 1, count + share, bad_cuts};
   }
 
   const P& planes_;
@@ -110,35 +127,49 @@ class OctreeBuilder<P>::Subtree {
 
   OctreeDraft build(std::span<const std::uint32_t> places, const OctreeCell& cell) {
     first_depth_ = cell.depth;
-    draft_.root = build_slot(places, cell);
+    draft_.root = build_slot(places, cell).slot;
     return std::move(draft_);
   }
 
   OctreeDraft leaf_only(std::span<const std::uint32_t> places) {
-    draft_.root = make_leaf(places);
+    draft_.root = make_leaf(places).slot;
     return std::move(draft_);
   }
 
  private:
-  DraftSlot build_slot(std::span<const std::uint32_t> places, const OctreeCell& cell) {
+  // What was made, and what it costs a ray that passes through its cell.
+  struct Built {
+    DraftSlot slot;
+    double cost;
+  };
+
+  Built build_slot(std::span<const std::uint32_t> places, const OctreeCell& cell) {
     const std::size_t level = cell.depth - first_depth_;
     if (levels_.size() <= level) levels_.push_back(std::make_unique<OctantSets>());
     OctantSets& sets = *levels_[level];
     OctantCut cut;
     if (!builder_.part(places, cell, scratch_, cut, sets)) return make_leaf(places);
+    const std::uint32_t bad_cuts = cell.bad_cuts + (builder_.is_bad(cut, sets, places.size()) ? 1 : 0);
     const std::size_t number = draft_.nodes.size();
-    {
-      DraftNode& node = draft_.nodes.emplace_back();
-      node.planes = to_vec3(cut.planes);
-      node.cut_axes = static_cast<std::uint8_t>(cut.axes);
-      node.own = append(sets.own());
-    }
+    const std::size_t first_leaf = draft_.leaves.size();
+    const std::size_t first_reference = draft_.references.size();
+    DraftNode node;
+    node.planes = to_vec3(cut.planes);
+    node.cut_axes = static_cast<std::uint8_t>(cut.axes);
+    node.own = append(sets.own());
+    double cost = builder_.settings_.cost.traversal + builder_.leaf_cost(node.own.count);
+    draft_.nodes.push_back(node);
     for (std::uint32_t octant = 0; octant < 8; ++octant) {
       if (sets.count(octant) == 0) continue;
-      const DraftSlot slot = build_slot(sets.of(octant), child_cell(cell, cut, sets, octant));
-      draft_.nodes[number].octants[octant] = slot;
+      const Built built = build_slot(sets.of(octant), child_cell(cell, cut, sets, octant, bad_cuts));
+      draft_.nodes[number].octants[octant] = built.slot;
+      cost += chance_of_octant(cut, octant) * built.cost;
     }
-    return DraftSlot::node(number);
+    if (builder_.settings_.split == OctreeSplit::median || cost < builder_.leaf_cost(places.size())) return {DraftSlot::node(number), cost};
+    draft_.nodes.resize(number);
+    draft_.leaves.resize(first_leaf);
+    draft_.references.resize(first_reference);
+    return make_leaf(places);
   }
 
   DraftLeaf append(std::span<const std::uint32_t> places) {
@@ -147,9 +178,9 @@ class OctreeBuilder<P>::Subtree {
     return {first, static_cast<std::uint32_t>(places.size())};
   }
 
-  DraftSlot make_leaf(std::span<const std::uint32_t> places) {
+  Built make_leaf(std::span<const std::uint32_t> places) {
     draft_.leaves.push_back(append(places));
-    return DraftSlot::leaf(draft_.leaves.size() - 1);
+    return {DraftSlot::leaf(draft_.leaves.size() - 1), builder_.leaf_cost(places.size())};
   }
 
   const OctreeBuilder& builder_;

@@ -3,8 +3,22 @@
 #include <cstdint>
 
 #include "grove/accel/octree.h"
+#include "grove/build/cost_model.h"
 
 namespace grove {
+
+/// Where cells are cut.
+enum class OctreeSplit : std::uint8_t {
+  median,    ///< in the middle; until leaves are small or deep enough
+  octree_r,  ///< where the fewest tests are expected (Whang et al. 1995); until that costs more than it saves
+};
+
+/// Which planes octree-R tries.
+enum class OctreeRSearch : std::uint8_t {
+  candidates,  ///< a few that are spaced equally between the object median and the spatial median, for each axis on its own
+  events,      ///< all in which a primitive begins or ends, for each axis on its own
+  joint,       ///< the candidates of all three axes together
+};
 
 /// Where a primitive is referenced.
 enum class OctreeStore : std::uint8_t {
@@ -13,11 +27,18 @@ enum class OctreeStore : std::uint8_t {
 };
 
 struct OctreeSettings {
+  OctreeSplit split = OctreeSplit::median;
   OctreeStore store = OctreeStore::leaf;
   /// No leaf is deeper; 0 for (8 + 1.3 log2 n) / 3, which is as fine as a kd-tree's default. At most Octree::kMaxDepth.
   std::uint32_t most_depth = 0;
   /// Sets of at most this many primitives are not cut. At least 1.
   std::uint32_t leaf_size = 8;
+  /// For octree-R: what is tried, and how many planes for each axis (at most OctreeRPlanes::kMostJointCandidates together). At least 1.
+  OctreeRSearch search = OctreeRSearch::candidates;
+  std::uint32_t candidate_count = 8;
+  /// For octree-R: what a step and a test cost, and how many cuts above each other may cost more than not cutting at all, in the hope of better ones below.
+  CostModel cost = {};
+  std::uint32_t bad_cuts = 1;
   /// At most so many references are made, as a multiple of the primitives. At least 1.
   double most_references = 8.0;
 };
