@@ -34,7 +34,8 @@ void expect_points_in_their_leaves(const Octree& tree, const TriangleMesh& mesh)
       const double v = sample == 0 || sample == 4 ? 0.0 : random.next_float();
       const Vec3 p(mesh.surface_point(i, u, v));
       const Box around{p - Vec3(1e-6F), p + Vec3(1e-6F)};
-      lost += std::none_of(cells[i].begin(), cells[i].end(), [&](const Box& cell) { return !cell.intersection(around).is_empty(); }) ? 1 : 0;
+      lost +=
+          std::none_of(cells[i].begin(), cells[i].end(), [&](const Box& cell) { return !cell.intersection(around).is_empty(); }) ? 1 : 0;
     }
   }
   EXPECT_EQ(lost, 0U);

@@ -88,9 +88,9 @@ TEST(Overlap, OfAMeshIsFalseForWhatIsNeverHit) {
 TEST(Overlap, OfASphereIsThatOfItsSurface) {
   const SphereSet set(std::vector<SphereSet::Sphere>{{Vec3(0.0F), 1.0F}});
   EXPECT_TRUE(set.overlaps(0, {{0.5F, 0.5F, 0.5F}, {1, 1, 1}}));
-  EXPECT_FALSE(set.overlaps(0, {{0.8F, 0.8F, 0.8F}, {1, 1, 1}}));    // boxes meet, but not the ball
+  EXPECT_FALSE(set.overlaps(0, {{0.8F, 0.8F, 0.8F}, {1, 1, 1}}));      // boxes meet, but not the ball
   EXPECT_FALSE(set.overlaps(0, {{-0.5F, -0.5F, -0.5F}, Vec3(0.5F)}));  // inside
-  EXPECT_TRUE(set.overlaps(0, {{1, -1, -1}, {2, 1, 1}}));            // touching
+  EXPECT_TRUE(set.overlaps(0, {{1, -1, -1}, {2, 1, 1}}));              // touching
 }
 
 }  // namespace

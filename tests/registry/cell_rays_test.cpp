@@ -87,9 +87,10 @@ INSTANTIATE_TEST_SUITE_P(KdTree, CellRays,
                                          "kdtree:split=spatial-median,walk=ropes", "kdtree:split=spatial-median,clip=false"),
                          [](const auto& test) { return as_test_name(test.param); });
 
-INSTANTIATE_TEST_SUITE_P(Octree, CellRays, testing::Values("octree", "octree:mailbox=false,leaf-size=1", "octree:store=inner",
-                                         "octree:walk=neighbour", "octree:walk=neighbour,leaf-size=1", "octree:store=inner,walk=neighbour",
-                                         "octree-r", "octree-r:walk=neighbour", "octree-r:walk=neighbour,planes=events,leaf-size=1",
+INSTANTIATE_TEST_SUITE_P(Octree, CellRays,
+                         testing::Values("octree", "octree:mailbox=false,leaf-size=1", "octree:store=inner", "octree:walk=neighbour",
+                                         "octree:walk=neighbour,leaf-size=1", "octree:store=inner,walk=neighbour", "octree-r",
+                                         "octree-r:walk=neighbour", "octree-r:walk=neighbour,planes=events,leaf-size=1",
                                          "octree-r:planes=joint,walk=neighbour,mailbox=false"),
                          [](const auto& test) { return as_test_name(test.param); });
 

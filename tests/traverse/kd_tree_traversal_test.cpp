@@ -77,7 +77,8 @@ TEST(KdTreeWalk, VisitsTheLeavesAlongARay) {
 TEST(KdRopeWalk, VisitsTheLeavesAlongARay) {
   const Grid grid;
   NoCounter counter;
-  testing::expect_walk_finds_leaves(grid.cells, [&](const Ray& ray, const auto& leaf) { walk(grid.roped, grid.ropes, ray, ray.t_max, leaf, counter); });
+  testing::expect_walk_finds_leaves(grid.cells,
+                                    [&](const Ray& ray, const auto& leaf) { walk(grid.roped, grid.ropes, ray, ray.t_max, leaf, counter); });
 }
 
 TEST(KdTreeWalk, GoesToAllSidesOfPlanesEdgesAndCorners) {

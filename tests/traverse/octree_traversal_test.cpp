@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "grove/traverse/octree_traversal.h"
+#include "grove/traverse/octree_neighbour_traversal.h"
 #include "traverse/leaf_walks.h"
 
 namespace grove {
@@ -76,6 +76,62 @@ TEST(OctreeWalk, EndsWhereNoNearerHitCanBe) {
   EXPECT_EQ(leaves, 3U);
   EXPECT_EQ(counts.leaves_entered, 3U);
   EXPECT_GT(counts.stack_depth, 0U);
+}
+
+TEST(OctreeNeighbourWalk, VisitsTheLeavesAlongARay) {
+  const Grid grid;
+  NoCounter counter;
+  testing::expect_walk_finds_leaves(
+      grid.cells, [&](const Ray& ray, const auto& leaf) { walk_by_neighbours(grid.tree, ray, ray.t_max, leaf, counter); });
+}
+
+TEST(OctreeNeighbourWalk, GoesToAllSidesOfPlanesEdgesAndCorners) {
+  const Grid grid;
+  NoCounter counter;
+  testing::expect_all_sides([&](const Ray& ray, const auto& leaf) { walk_by_neighbours(grid.tree, ray, ray.t_max, leaf, counter); });
+}
+
+// Cell by cell, each once, without falling back to the walk from the top, whose stack would be seen; from inside as well as from outside.
+TEST(OctreeNeighbourWalk, NeedsNoStackWhereThereIsNoDoubt) {
+  const Grid grid;
+  for (const bool starts_inside : {false, true}) {
+    for (const Vec3& direction : {Vec3(1.0F, 0.21F, 0.13F), Vec3(-1.0F, 0.34F, -0.27F), Vec3(0.3F, -0.4F, 0.5F)}) {
+      TraversalCounts counts;
+      Counter counter(counts);
+      std::vector<std::uint32_t> visited;
+      const auto leaf = [&](std::uint32_t first, std::uint32_t /*count*/) {
+        visited.push_back(first);
+        return false;
+      };
+      const Vec3 middle(0.51F, 0.52F, 0.53F);
+      const Ray ray{starts_inside ? middle : middle - 2.0F * direction, 0.0F, direction, 10.0F};
+      walk_by_neighbours(grid.tree, ray, ray.t_max, leaf, counter);
+      EXPECT_EQ(counts.stack_depth, 0U);
+      EXPECT_GE(visited.size(), starts_inside ? 4U : 8U);
+      std::vector<std::uint32_t> sorted = visited;
+      std::sort(sorted.begin(), sorted.end());
+      EXPECT_EQ(std::unique(sorted.begin(), sorted.end()), sorted.end());
+      // Each is beside the one before.
+      for (std::size_t i = 1; i < visited.size(); ++i) {
+        const Box common = grid.cells[visited[i - 1]].intersection(grid.cells[visited[i]]);
+        EXPECT_FALSE(common.is_empty());
+        EXPECT_GT(common.half_area(), 0.0F);
+      }
+    }
+  }
+}
+
+TEST(OctreeNeighbourWalk, EndsWhereNoNearerHitCanBe) {
+  const Grid grid;
+  NoCounter counter;
+  float t_max = std::numeric_limits<float>::infinity();
+  std::uint32_t leaves = 0;
+  const auto hit_in_third = [&](std::uint32_t /*first*/, std::uint32_t /*count*/) {
+    if (++leaves == 3) t_max = 1.3F;
+    return false;
+  };
+  walk_by_neighbours(grid.tree, {{-1.0F, 0.3F, 0.3F}, 0.0F, {1.0F, 0.0F, 0.0F}}, t_max, hit_in_third, counter);
+  EXPECT_EQ(leaves, 3U);
 }
 
 // What a node keeps itself is found on the way to its octants, and ends the walk where it is hit before them.

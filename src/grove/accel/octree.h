@@ -41,7 +41,9 @@ struct OctreeNode {
   std::uint8_t cut_axes;
 
   /// The interior node in an octant that is one.
-  [[nodiscard]] std::uint32_t child(std::uint32_t octant) const { return first_child + count_octants(interior_mask & ((1U << octant) - 1)); }
+  [[nodiscard]] std::uint32_t child(std::uint32_t octant) const {
+    return first_child + count_octants(interior_mask & ((1U << octant) - 1));
+  }
   /// The leaf in an octant that is one.
   [[nodiscard]] std::uint32_t leaf(std::uint32_t octant) const {
     return first_leaf + has_own + count_octants(leaf_mask & ((1U << octant) - 1));

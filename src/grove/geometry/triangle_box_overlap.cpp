@@ -48,8 +48,8 @@ bool overlaps_box(const Vec3& v0, const Vec3& v1, const Vec3& v2, const Box& box
   const double slack = kRounding * longest * (reach + largest(half));
   for (int i = 0; i < 3; ++i) {
     const DVec3& third = corners[(i + 2) % 3];
-    if (is_apart_across(edges[i], corners[i], third, half, 1, 2, slack) || is_apart_across(edges[i], corners[i], third, half, 2, 0, slack) ||
-        is_apart_across(edges[i], corners[i], third, half, 0, 1, slack))
+    if (is_apart_across(edges[i], corners[i], third, half, 1, 2, slack) ||
+        is_apart_across(edges[i], corners[i], third, half, 2, 0, slack) || is_apart_across(edges[i], corners[i], third, half, 0, 1, slack))
       return false;
   }
   return true;

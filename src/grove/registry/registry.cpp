@@ -9,11 +9,8 @@ namespace {
 
 // The one list of structures: tests, command, lab and bindings go through it.
 constexpr RegistryRow kRows[] = {
-    {describe_brute, build_brute},
-    {describe_bvh, build_bvh},
-    {describe_fast, build_fast},
-    {describe_kd_tree, build_kd_tree},
-    {describe_octree, build_octree},
+    {describe_brute, build_brute},     {describe_bvh, build_bvh},       {describe_fast, build_fast},
+    {describe_kd_tree, build_kd_tree}, {describe_octree, build_octree},
 };
 
 constexpr std::string_view kRepresentativeSpecs[] = {

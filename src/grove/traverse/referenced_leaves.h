@@ -64,8 +64,7 @@ void trace_closest_in_leaves(const G& geometry, const LeafStorage<G>& leaves, co
 template <Geometry G, typename Walk, typename C>
 bool trace_any_in_leaves(const G& geometry, const LeafStorage<G>& leaves, const std::uint32_t* references, UseMailbox mailbox,
                          const Ray& ray, const Walk& walk_leaves, C& counter) {
-  if (mailbox == UseMailbox::yes)
-    return detail::any_in_leaves<Mailbox>(geometry, leaves, references, ray, walk_leaves, counter);
+  if (mailbox == UseMailbox::yes) return detail::any_in_leaves<Mailbox>(geometry, leaves, references, ray, walk_leaves, counter);
   return detail::any_in_leaves<NoMailbox>(geometry, leaves, references, ray, walk_leaves, counter);
 }
 

@@ -42,18 +42,14 @@ void walk_by_either(const TraceableOctree<G>& structure, const Ray& ray, const f
 /// Closest hit. `hit.t` must start as the ray's t_max.
 template <Geometry G, typename C>
 void trace_closest(const TraceableOctree<G>& structure, const G& geometry, const Ray& ray, Hit& hit, C& counter) {
-  const auto walk_leaves = [&](const float& t_max, const auto& leaf) {
-    detail::walk_by_either(structure, ray, t_max, leaf, counter);
-  };
+  const auto walk_leaves = [&](const float& t_max, const auto& leaf) { detail::walk_by_either(structure, ray, t_max, leaf, counter); };
   trace_closest_in_leaves(geometry, structure.leaves, structure.tree.references.data(), structure.mailbox, ray, hit, walk_leaves, counter);
 }
 
 /// Any hit within [ray.t_min, ray.t_max].
 template <Geometry G, typename C>
 bool trace_any(const TraceableOctree<G>& structure, const G& geometry, const Ray& ray, C& counter) {
-  const auto walk_leaves = [&](const float& t_max, const auto& leaf) {
-    detail::walk_by_either(structure, ray, t_max, leaf, counter);
-  };
+  const auto walk_leaves = [&](const float& t_max, const auto& leaf) { detail::walk_by_either(structure, ray, t_max, leaf, counter); };
   return trace_any_in_leaves(geometry, structure.leaves, structure.tree.references.data(), structure.mailbox, ray, walk_leaves, counter);
 }
 

@@ -36,7 +36,8 @@ struct OctantCut {
     for (unsigned sides = 0; sides < 64; ++sides) {
       for (unsigned octant = 0; octant < 8; ++octant) {
         bool is_met = true;
-        for (unsigned axis = 0; axis < 3; ++axis) is_met = is_met && ((octant >> axis & 1U) != 0 ? sides >> (axis + 3) : sides >> axis) % 2 == 1;
+        for (unsigned axis = 0; axis < 3; ++axis)
+          is_met = is_met && ((octant >> axis & 1U) != 0 ? sides >> (axis + 3) : sides >> axis) % 2 == 1;
         if (is_met) octants[sides] = static_cast<std::uint8_t>(octants[sides] | 1U << octant);
       }
     }

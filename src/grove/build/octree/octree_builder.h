@@ -109,7 +109,8 @@ class OctreeBuilder {
                                std::uint32_t bad_cuts) {
     const std::uint64_t count = sets.count(octant);
     const std::uint64_t slack = cell.capacity - sets.total();
-    const auto share = static_cast<std::uint64_t>(static_cast<double>(slack) * static_cast<double>(count) / static_cast<double>(sets.total()));
+    const auto share =
+        static_cast<std::uint64_t>(static_cast<double>(slack) * static_cast<double>(count) / static_cast<double>(sets.total()));
     return {cut.octant(octant), cell.depth + 1, count + share, bad_cuts};
   }
 

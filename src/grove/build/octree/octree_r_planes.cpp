@@ -23,7 +23,9 @@ class AxisCost {
     const auto side = [&](int i) { return static_cast<double>(cell.upper[i]) - static_cast<double>(cell.lower[i]); };
     space_ = {side(axis), side((axis + 1) % 3), side((axis + 2) % 3)};
   }
-  [[nodiscard]] double of(float plane, const DividedCounts& counts) const { return expected_tests(space_, static_cast<double>(plane) - lower_, counts); }
+  [[nodiscard]] double of(float plane, const DividedCounts& counts) const {
+    return expected_tests(space_, static_cast<double>(plane) - lower_, counts);
+  }
 
  private:
   double lower_;
@@ -101,7 +103,7 @@ bool choose_event(const CellSet& set, const Box4& cell, int axis, std::vector<fl
 
   const AxisCost cost(cell, axis);
   double least = std::numeric_limits<double>::infinity();
-  std::size_t begun = 0;          // primitives that begin below the plane
+  std::size_t begun = 0;           // primitives that begin below the plane
   std::size_t ended = set.size();  // end of those that end below or in it
   std::size_t flat = 2 * set.size();
   while (ended < 2 * set.size()) {
@@ -138,7 +140,8 @@ OctantCut choose_events(const CellSet& set, const Box4& cell, OctreeRPlanes::Scr
 
 }  // namespace
 
-OctantCut OctreeRPlanes::choose(const OctantSource& source, const Box4& cell, std::span<const std::uint32_t> places, Scratch& scratch) const {
+OctantCut OctreeRPlanes::choose(const OctantSource& source, const Box4& cell, std::span<const std::uint32_t> places,
+                                Scratch& scratch) const {
   const CellSet set{source, places};
   if (search_ == OctreeRSearch::events) return choose_events(set, cell, scratch);
   const bool is_joint = search_ == OctreeRSearch::joint;

@@ -56,7 +56,8 @@ void OctantSets::part(const OctantSource& source, const OctantCut& cut, std::spa
     Counts cursor = chunks[id];
     for (std::size_t i = first; i < last; ++i) {
       if (octants_[i] == 0) places_[cursor[kOwn]++] = places[i];
-      for (std::uint32_t left = octants_[i]; left != 0; left &= left - 1) places_[cursor[static_cast<std::size_t>(std::countr_zero(left))]++] = places[i];
+      for (std::uint32_t left = octants_[i]; left != 0; left &= left - 1)
+        places_[cursor[static_cast<std::size_t>(std::countr_zero(left))]++] = places[i];
     }
   });
 }
