@@ -129,7 +129,7 @@ TEST(OctreeRCost, AgreesWithRandomLines) {
 // Clustered towards a corner, with some that are flat or lie in planes of others.
 struct Cell {
   ReferenceList list;
-  std::vector<std::uint32_t> places;
+  std::vector<std::uint32_t> ids;
   Box4 box;
 
   explicit Cell(std::uint64_t seed) {
@@ -145,8 +145,8 @@ struct Cell {
       list.references.push_back(make_reference(bounds, i));
       list.bounds.grow(bounds);
     }
-    places.resize(count);
-    std::iota(places.begin(), places.end(), 0U);
+    ids.resize(count);
+    std::iota(ids.begin(), ids.end(), 0U);
     // Some reach out of the cell.
     box = {to_float4(list.bounds.lower), to_float4(list.bounds.lower + 0.9F * list.bounds.extent())};
   }
@@ -154,8 +154,7 @@ struct Cell {
 
 class NoOverlapTest final : public OverlapTest {
  public:
-  void narrow(const OctantCut& /*cut*/, std::span<const PrimitiveReference> /*references*/, std::span<const std::uint32_t> /*places*/,
-              std::uint8_t* /*octants*/) const override {}
+  void narrow(const OctantCut& /*cut*/, std::span<const std::uint32_t> /*ids*/, std::uint8_t* /*octants*/) const override {}
 };
 
 // n(t), m(t) and s(t) by the definition, with the builder's rule for what only touches.
@@ -189,10 +188,10 @@ TEST(OctreeRPlanes, AreTheBestOfTheCandidates) {
     const Cell cell(seed);
     const OctantSource source{cell.list.references, overlap};
     OctreeRPlanes::Scratch scratch;
-    const OctantCut cut = OctreeRPlanes(OctreeRSearch::candidates, 7).choose(source, cell.box, cell.places, scratch);
+    const OctantCut cut = OctreeRPlanes(OctreeRSearch::candidates, 7).choose(source, cell.box, cell.ids, scratch);
     for (int axis = 0; axis < 3; ++axis) {
       // The candidates by their definition: seven from one median to the other.
-      const float median = object_median({source, cell.places}, cell.box, axis, scratch.ends[0]);
+      const float median = object_median({source, cell.ids}, cell.box, axis, scratch.ends[0]);
       const float middle = 0.5F * cell.box.lower[axis] + 0.5F * cell.box.upper[axis];
       const float from = std::min(middle, median);
       const float to = std::max(middle, median);
@@ -214,7 +213,7 @@ TEST(OctreeRPlanes, OfEventsAreTheBestOfAll) {
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
     const Cell cell(seed);
     OctreeRPlanes::Scratch scratch;
-    const OctantCut cut = OctreeRPlanes(OctreeRSearch::events, 8).choose({cell.list.references, overlap}, cell.box, cell.places, scratch);
+    const OctantCut cut = OctreeRPlanes(OctreeRSearch::events, 8).choose({cell.list.references, overlap}, cell.box, cell.ids, scratch);
     Random random(seed);
     for (int axis = 0; axis < 3; ++axis) {
       double least = std::numeric_limits<double>::infinity();
@@ -247,8 +246,8 @@ TEST(OctreeRPlanes, ChosenJointlyAreTheBestTriple) {
     const Cell cell(seed);
     const OctantSource source{cell.list.references, overlap};
     OctreeRPlanes::Scratch scratch;
-    const OctantCut cut = OctreeRPlanes(OctreeRSearch::joint, 5).choose(source, cell.box, cell.places, scratch);
-    const OctreeRCandidates candidates({source, cell.places}, cell.box, 5, scratch.ends);
+    const OctantCut cut = OctreeRPlanes(OctreeRSearch::joint, 5).choose(source, cell.box, cell.ids, scratch);
+    const OctreeRCandidates candidates({source, cell.ids}, cell.box, 5, scratch.ends);
     double least = std::numeric_limits<double>::infinity();
     const auto at = [&](int axis, std::size_t i) {
       return i < candidates.counts[axis] ? static_cast<float>(candidates.planes[i][axis]) : static_cast<float>(cell.box.upper[axis]);
@@ -259,7 +258,7 @@ TEST(OctreeRPlanes, ChosenJointlyAreTheBestTriple) {
           least = std::min(least, tests_of_octants(cell, {cell.box, Float4{at(0, x), at(1, y), at(2, z), 0.0F}, cut.axes}));
     EXPECT_NEAR(tests_of_octants(cell, cut), least, 1e-9 * least) << seed;
     // And so at least as good as the best of each axis on its own.
-    const OctantCut apart = OctreeRPlanes(OctreeRSearch::candidates, 5).choose(source, cell.box, cell.places, scratch);
+    const OctantCut apart = OctreeRPlanes(OctreeRSearch::candidates, 5).choose(source, cell.box, cell.ids, scratch);
     EXPECT_LE(tests_of_octants(cell, cut), tests_of_octants(cell, apart) * (1.0 + 1e-9)) << seed;
   }
 }

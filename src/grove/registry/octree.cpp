@@ -1,4 +1,5 @@
 #include "grove/base/check.h"
+#include "grove/base/error.h"
 #include "grove/base/timer.h"
 #include "grove/build/cost_model.h"
 #include "grove/build/octree/build_octree.h"
@@ -21,6 +22,11 @@ struct OctreeOptions {
     settings.search = parse_search(spec.value("planes"));
     settings.candidate_count = static_cast<std::uint32_t>(spec.number("candidates"));
     settings.store = spec.value("store") == "inner" ? OctreeStore::inner : OctreeStore::leaf;
+    settings.build = spec.value("build") == "merge" ? OctreeBuild::merge : OctreeBuild::subtree;
+    if (settings.build == OctreeBuild::merge && settings.split == OctreeSplit::octree_r)
+      throw UsageError(
+          "structure 'octree': build=merge needs split=median; the planes of octree-r depend on all primitives, so subsets cannot have "
+          "them");
     settings.most_depth = static_cast<std::uint32_t>(spec.number("max-depth"));
     settings.leaf_size = static_cast<std::uint32_t>(spec.number("leaf-size"));
     // Where each primitive is referenced once there is nothing to remember.
@@ -98,6 +104,13 @@ StructureFamily describe_octree() {
                0,
                0,
                "how a ray comes from leaf to leaf: down from the root, nearer octants first, or from cell to neighbouring cell"},
+              {"build",
+               {"subtree", "merge"},
+               0,
+               0,
+               0,
+               "how threads build the same tree: octants apart, from the root down; or subsets of the primitives apart, whose octrees are "
+               "merged (split=median)"},
               {"mailbox",
                {"true", "false"},
                0,

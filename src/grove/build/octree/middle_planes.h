@@ -21,7 +21,7 @@ class MiddlePlanes {
     }
     return cut;
   }
-  [[nodiscard]] static OctantCut choose(const OctantSource& /*source*/, const Box4& cell, std::span<const std::uint32_t> /*places*/,
+  [[nodiscard]] static OctantCut choose(const OctantSource& /*source*/, const Box4& cell, std::span<const std::uint32_t> /*ids*/,
                                         Scratch& /*scratch*/) {
     return choose(cell);
   }

@@ -49,25 +49,23 @@ struct OctantCut {
 class OverlapTest {
  public:
   virtual ~OverlapTest() = default;
-  /// octants[i] belongs to references[places[i]]. Of several octants those stay that the primitive overlaps.
-  virtual void narrow(const OctantCut& cut, std::span<const PrimitiveReference> references, std::span<const std::uint32_t> places,
-                      std::uint8_t* octants) const = 0;
+  /// octants[i] belongs to primitive ids[i]. Of several octants those stay that it overlaps.
+  virtual void narrow(const OctantCut& cut, std::span<const std::uint32_t> ids, std::uint8_t* octants) const = 0;
 };
 
 template <Geometry G>
 class GeometryOverlapTest final : public OverlapTest {
  public:
   explicit GeometryOverlapTest(const G& geometry) : geometry_(geometry) {}
-  void narrow(const OctantCut& cut, std::span<const PrimitiveReference> references, std::span<const std::uint32_t> places,
-              std::uint8_t* octants) const override {
+  void narrow(const OctantCut& cut, std::span<const std::uint32_t> ids, std::uint8_t* octants) const override {
     Box boxes[8];
     for (std::uint32_t octant = 0; octant < 8; ++octant) boxes[octant] = cut.octant(octant).box();
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t i = 0; i < ids.size(); ++i) {
       const std::uint32_t met = octants[i];
       if ((met & (met - 1)) == 0) continue;
       std::uint32_t overlapped = 0;
       for (std::uint32_t octant = 0; octant < 8; ++octant)
-        if ((met >> octant & 1U) != 0 && geometry_.overlaps(references[places[i]].primitive(), boxes[octant])) overlapped |= 1U << octant;
+        if ((met >> octant & 1U) != 0 && geometry_.overlaps(ids[i], boxes[octant])) overlapped |= 1U << octant;
       // Never none, whatever a geometry may answer.
       if (overlapped != 0) octants[i] = static_cast<std::uint8_t>(overlapped);
     }

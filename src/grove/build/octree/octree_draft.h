@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "grove/math/vector.h"
@@ -31,7 +32,7 @@ class DraftSlot {
   std::uint32_t word_ = 0;
 };
 
-/// References of a leaf, or of a node itself, in a draft's list.
+/// The primitives of a leaf, or of a node itself, in a draft's list; ascending.
 struct DraftLeaf {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
@@ -40,6 +41,8 @@ struct DraftLeaf {
 struct DraftNode {
   Vec3 planes;
   std::uint8_t cut_axes = 0;
+  /// How many primitives the cell's set had, before it was parted.
+  std::uint32_t count = 0;
   DraftLeaf own;
   std::array<DraftSlot, 8> octants;
 };
@@ -51,6 +54,29 @@ struct OctreeDraft {
   std::vector<std::uint32_t> references;
   std::vector<std::unique_ptr<OctreeDraft>> parts;
   DraftSlot root;
+
+  DraftSlot add_leaf(std::span<const std::uint32_t> ids) {
+    leaves.push_back(add(ids));
+    return DraftSlot::leaf(leaves.size() - 1);
+  }
+  /// A node without octants yet. `count` as in DraftNode.
+  DraftSlot add_node(const Vec3& planes, std::uint32_t cut_axes, std::size_t count, std::span<const std::uint32_t> own) {
+    nodes.push_back({planes, static_cast<std::uint8_t>(cut_axes), static_cast<std::uint32_t>(count), add(own), {}});
+    return DraftSlot::node(nodes.size() - 1);
+  }
+  [[nodiscard]] std::span<const std::uint32_t> ids_of(const DraftLeaf& leaf) const { return {references.data() + leaf.first, leaf.count}; }
+  [[nodiscard]] std::span<const std::uint32_t> ids_of_leaf(DraftSlot slot) const { return ids_of(leaves[slot.number()]); }
+
+  /// How much there is, so that what is added after it can be taken back.
+  struct Mark {
+    std::size_t nodes, leaves, references;
+  };
+  [[nodiscard]] Mark mark() const { return {nodes.size(), leaves.size(), references.size()}; }
+  void take_back(const Mark& before) {
+    nodes.resize(before.nodes);
+    leaves.resize(before.leaves);
+    references.resize(before.references);
+  }
 
   /// The draft, and the slot in it, that a slot stands for once parts are followed.
   struct Place {
@@ -64,6 +90,13 @@ struct OctreeDraft {
       slot = draft->root;
     }
     return {draft, slot};
+  }
+
+ private:
+  DraftLeaf add(std::span<const std::uint32_t> ids) {
+    const auto first = static_cast<std::uint32_t>(references.size());
+    references.insert(references.end(), ids.begin(), ids.end());
+    return {first, static_cast<std::uint32_t>(ids.size())};
   }
 };
 

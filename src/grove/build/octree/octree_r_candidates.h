@@ -10,16 +10,13 @@
 
 namespace grove {
 
-/// From here on a set is worth several tasks.
-inline constexpr std::size_t kOctreeParallelSize = 65536;
-
-/// A cell's references, by number.
+/// A cell's references.
 struct CellSet {
   const OctantSource& source;
-  std::span<const std::uint32_t> places;
+  std::span<const std::uint32_t> ids;
 
-  [[nodiscard]] std::size_t size() const { return places.size(); }
-  [[nodiscard]] const PrimitiveReference& operator[](std::size_t i) const { return source.references[places[i]]; }
+  [[nodiscard]] std::size_t size() const { return ids.size(); }
+  [[nodiscard]] const PrimitiveReference& operator[](std::size_t i) const { return source.references[ids[i]]; }
 };
 
 /// Candidates of all axes, side by side in the lanes: for each axis counts[axis] planes in ascending order, all inside the cell, and then NaN.

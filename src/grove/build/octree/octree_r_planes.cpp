@@ -140,9 +140,8 @@ OctantCut choose_events(const CellSet& set, const Box4& cell, OctreeRPlanes::Scr
 
 }  // namespace
 
-OctantCut OctreeRPlanes::choose(const OctantSource& source, const Box4& cell, std::span<const std::uint32_t> places,
-                                Scratch& scratch) const {
-  const CellSet set{source, places};
+OctantCut OctreeRPlanes::choose(const OctantSource& source, const Box4& cell, std::span<const std::uint32_t> ids, Scratch& scratch) const {
+  const CellSet set{source, ids};
   if (search_ == OctreeRSearch::events) return choose_events(set, cell, scratch);
   const bool is_joint = search_ == OctreeRSearch::joint;
   const std::uint32_t count = is_joint ? std::min(candidate_count_, kMostJointCandidates) : candidate_count_;

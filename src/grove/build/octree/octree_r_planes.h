@@ -26,8 +26,7 @@ class OctreeRPlanes {
 
   /// O(n candidates), O(n log n) for OctreeRSearch::events, O(n + candidates^3) for OctreeRSearch::joint. In parallel for large sets; the same for any
   /// number of threads.
-  [[nodiscard]] OctantCut choose(const OctantSource& source, const Box4& cell, std::span<const std::uint32_t> places,
-                                 Scratch& scratch) const;
+  [[nodiscard]] OctantCut choose(const OctantSource& source, const Box4& cell, std::span<const std::uint32_t> ids, Scratch& scratch) const;
 
   /// Of OctreeRSearch::joint, which counts in a grid of all their triples.
   static constexpr std::uint32_t kMostJointCandidates = 16;

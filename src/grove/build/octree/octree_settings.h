@@ -20,6 +20,12 @@ enum class OctreeRSearch : std::uint8_t {
   joint,       ///< the candidates of all three axes together
 };
 
+/// How threads share the work. The tree is the same.
+enum class OctreeBuild : std::uint8_t {
+  subtree,  ///< from the root down, octants by different threads
+  merge,  ///< subsets of the primitives build octrees, which are merged; only where planes do not depend on the primitives, else as `subtree`
+};
+
 /// Where a primitive is referenced.
 enum class OctreeStore : std::uint8_t {
   leaf,   ///< in each leaf that it truly overlaps
@@ -29,6 +35,7 @@ enum class OctreeStore : std::uint8_t {
 struct OctreeSettings {
   OctreeSplit split = OctreeSplit::median;
   OctreeStore store = OctreeStore::leaf;
+  OctreeBuild build = OctreeBuild::subtree;
   /// No leaf is deeper; 0 for (8 + 1.3 log2 n) / 3, which is as fine as a kd-tree's default. At most Octree::kMaxDepth.
   std::uint32_t most_depth = 0;
   /// Sets of at most this many primitives are not cut. At least 1.

@@ -10,21 +10,18 @@
 namespace grove {
 namespace {
 
-// From here on a set is worth several tasks.
-constexpr std::size_t kParallelSize = 65536;
-
-// How many places go to each octant, and stay; then where the next of each goes.
+// How many ids go to each octant, and stay; then where the next of each goes.
 using Counts = std::array<std::uint64_t, 9>;
 
 }  // namespace
 
-void OctantSets::part(const OctantSource& source, const OctantCut& cut, std::span<const std::uint32_t> places, OctreeStore store) {
-  const std::size_t size = places.size();
-  const std::size_t chunk_size = size > kParallelSize ? kBuildChunkSize : std::max<std::size_t>(size, 1);
+void OctantSets::part(const OctantSource& source, const OctantCut& cut, std::span<const std::uint32_t> ids, OctreeStore store) {
+  const std::size_t size = ids.size();
+  const std::size_t chunk_size = size > kOctreeParallelSize ? kBuildChunkSize : std::max<std::size_t>(size, 1);
   octants_.resize(size);
   std::vector<Counts> chunks((size + chunk_size - 1) / chunk_size);
   parallel_chunks(size, chunk_size, [&](std::size_t id, std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) octants_[i] = static_cast<std::uint8_t>(cut.octants_of(source.references[places[i]]));
+    for (std::size_t i = first; i < last; ++i) octants_[i] = static_cast<std::uint8_t>(cut.octants_of(source.references[ids[i]]));
     Counts& counts = chunks[id];
     if (store == OctreeStore::inner) {
       for (std::size_t i = first; i < last; ++i) {
@@ -32,7 +29,7 @@ void OctantSets::part(const OctantSource& source, const OctantCut& cut, std::spa
         counts[kOwn] += octants_[i] == 0 ? 1 : 0;
       }
     } else {
-      source.overlap.narrow(cut, source.references, places.subspan(first, last - first), octants_.data() + first);
+      source.overlap.narrow(cut, ids.subspan(first, last - first), octants_.data() + first);
     }
     for (std::size_t i = first; i < last; ++i)
       for (std::uint32_t octant = 0; octant < 8; ++octant) counts[octant] += octants_[i] >> octant & 1U;
@@ -51,13 +48,13 @@ void OctantSets::part(const OctantSource& source, const OctantCut& cut, std::spa
     for (Counts& counts : chunks) next += std::exchange(counts[set], next);
   }
   first_[kOwn + 1] = static_cast<std::uint32_t>(next);
-  places_.resize(next);
+  ids_.resize(next);
   parallel_chunks(size, chunk_size, [&](std::size_t id, std::size_t first, std::size_t last) {
     Counts cursor = chunks[id];
     for (std::size_t i = first; i < last; ++i) {
-      if (octants_[i] == 0) places_[cursor[kOwn]++] = places[i];
+      if (octants_[i] == 0) ids_[cursor[kOwn]++] = ids[i];
       for (std::uint32_t left = octants_[i]; left != 0; left &= left - 1)
-        places_[cursor[static_cast<std::size_t>(std::countr_zero(left))]++] = places[i];
+        ids_[cursor[static_cast<std::size_t>(std::countr_zero(left))]++] = ids[i];
     }
   });
 }
