@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "grove/build/octree/octree_r_cost.h"
-
 namespace grove {
 namespace {
 
@@ -14,7 +12,17 @@ class JointSearch {
  public:
   JointSearch(const CellSet& set, const Box4& cell, const OctreeRCandidates& candidates, std::vector<std::uint32_t> grids[8])
       : cell_(cell), candidates_(candidates), grids_(grids) {
-    for (int axis = 0; axis < 3; ++axis) count_[axis] = std::max<std::size_t>(candidates.counts[axis], 1);
+    double whole[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      count_[axis] = std::max<std::size_t>(candidates.counts[axis], 1);
+      for (std::size_t i = 0; i < count_[axis]; ++i) {
+        const double plane = position(axis, i);
+        sides_[axis][0].push_back(plane - static_cast<double>(cell.lower[axis]));
+        sides_[axis][1].push_back(static_cast<double>(cell.upper[axis]) - plane);
+      }
+      whole[axis] = static_cast<double>(cell.upper[axis]) - static_cast<double>(cell.lower[axis]);
+    }
+    has_area_ = half_area(whole) > 0.0;
     for (int octant = 0; octant < 8; ++octant) grids_[octant].assign(count_[0] * count_[1] * count_[2], 0);
     for (std::size_t i = 0; i < set.size(); ++i) add(set[i]);
     for (std::uint32_t octant = 0; octant < 8; ++octant)
@@ -22,25 +30,24 @@ class JointSearch {
   }
 
   [[nodiscard]] OctantCut best() const {
-    OctantCut cut{cell_, cell_.upper, 0};
+    std::size_t at[3] = {0, 0, 0};
+    std::size_t best_at[3] = {0, 0, 0};
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t z = 0; z < count_[2]; ++z) {
-      for (std::size_t y = 0; y < count_[1]; ++y) {
-        for (std::size_t x = 0; x < count_[0]; ++x) {
-          OctantCut tried{cell_, cell_.upper, 0};
-          const std::size_t at[3] = {x, y, z};
-          for (int axis = 0; axis < 3; ++axis) {
-            if (candidates_.counts[axis] == 0) continue;
-            tried.planes[axis] = candidates_.planes[at[axis]][axis];
-            tried.axes |= 1U << axis;
-          }
-          if (tried.axes == 0) return cut;
-          const double tests = expected(tried, index(x, y, z));
+    for (at[2] = 0; at[2] < count_[2]; ++at[2]) {
+      for (at[1] = 0; at[1] < count_[1]; ++at[1]) {
+        for (at[0] = 0; at[0] < count_[0]; ++at[0]) {
+          const double tests = expected(at);
           if (!(tests < least)) continue;
           least = tests;
-          cut = tried;
+          std::copy_n(at, 3, best_at);
         }
       }
+    }
+    OctantCut cut{cell_, cell_.upper, 0};
+    for (int axis = 0; axis < 3; ++axis) {
+      if (candidates_.counts[axis] == 0) continue;
+      cut.planes[axis] = position(axis, best_at[axis]);
+      cut.axes |= 1U << axis;
     }
     return cut;
   }
@@ -81,23 +88,41 @@ class JointSearch {
   // Running sums along an axis: from the lowest candidate on, or from the highest down.
   void sum_up(std::vector<std::uint32_t>& grid, int axis, bool is_downward) const {
     const std::size_t stride = axis == 0 ? 1 : axis == 1 ? count_[0] : count_[0] * count_[1];
-    for (std::size_t k = 0; k < grid.size(); ++k) {
-      const std::size_t i = is_downward ? grid.size() - 1 - k : k;
-      const std::size_t at = i / stride % count_[axis];
-      if (is_downward ? at + 1 < count_[axis] : at > 0) grid[i] += grid[is_downward ? i + stride : i - stride];
+    const std::size_t count = count_[axis];
+    for (std::size_t first = 0; first < grid.size(); first += stride * count) {
+      for (std::size_t i = 1; i < count; ++i) {
+        const std::size_t to = first + (is_downward ? count - 1 - i : i) * stride;
+        const std::size_t from = first + (is_downward ? count - i : i - 1) * stride;
+        for (std::size_t k = 0; k < stride; ++k) grid[to + k] += grid[from + k];
+      }
     }
   }
 
-  [[nodiscard]] double expected(const OctantCut& tried, std::size_t triple) const {
-    double tests = 0.0;
-    for (std::uint32_t octant = 0; octant < 8; ++octant) tests += chance_of_octant(tried, octant) * grids_[octant][triple];
-    return tests;
+  // Where the axis is not cut, all lies below.
+  [[nodiscard]] float position(int axis, std::size_t i) const {
+    return candidates_.counts[axis] == 0 ? static_cast<float>(cell_.upper[axis]) : static_cast<float>(candidates_.planes[i][axis]);
+  }
+
+  static double half_area(const double side[3]) { return side[0] * (side[1] + side[2]) + side[1] * side[2]; }
+
+  // The tests expected in the octants of a triple, times the area of the cell, or its length where it has no area.
+  [[nodiscard]] double expected(const std::size_t at[3]) const {
+    const std::size_t triple = index(at[0], at[1], at[2]);
+    double sum = 0.0;
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+      double side[3];
+      for (std::uint32_t axis = 0; axis < 3; ++axis) side[axis] = sides_[axis][octant >> axis & 1U][at[axis]];
+      sum += (has_area_ ? half_area(side) : side[0] + side[1] + side[2]) * grids_[octant][triple];
+    }
+    return sum;
   }
 
   const Box4& cell_;
   const OctreeRCandidates& candidates_;
   std::vector<std::uint32_t>* grids_;
   std::size_t count_[3];
+  std::vector<double> sides_[3][2];  // of the lower and the upper part, by candidate
+  bool has_area_ = false;
 };
 
 }  // namespace

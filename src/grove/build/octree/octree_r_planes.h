@@ -24,8 +24,8 @@ class OctreeRPlanes {
 
   OctreeRPlanes(OctreeRSearch search, std::uint32_t candidate_count) : search_(search), candidate_count_(candidate_count) {}
 
-  /// O(n candidates), O(n log n) for OctreeRSearch::events, O(n + candidates^3) for OctreeRSearch::joint. In parallel for large sets; the same for any
-  /// number of threads.
+  /// O(n candidates), O(n log n) for OctreeRSearch::events, O(n + candidates^3) for OctreeRSearch::joint. In parallel for large sets, but for the
+  /// counts of joint candidates; the same for any number of threads.
   [[nodiscard]] OctantCut choose(const OctantSource& source, const Box4& cell, std::span<const std::uint32_t> ids, Scratch& scratch) const;
 
   /// Of OctreeRSearch::joint, which counts in a grid of all their triples.

@@ -1,0 +1,148 @@
+#include "grove/lab/octree_trial.h"
+
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "grove/base/check.h"
+#include "grove/base/timer.h"
+#include "grove/build/octree/build_octree.h"
+#include "grove/lab/spread.h"
+
+namespace grove {
+namespace {
+
+template <Geometry G>
+class Trials {
+ public:
+  Trials(const G& geometry, std::span<const OctreeContender> contenders, std::span<const Ray> rays) : geometry_(geometry), rays_(rays) {
+    for (const OctreeContender& contender : contenders) add(contender);
+  }
+
+  std::vector<OctreeTrial> run(unsigned rounds) {
+    const auto ray_count = static_cast<double>(rays_.size());
+    for (unsigned round = 0; round < rounds; ++round) {
+      for (std::size_t i = 0; i < structures_.size(); ++i) {
+        const Timer timer;
+        double sum = 0.0;
+        for (const Ray& ray : rays_) sum += trace(structures_[i], ray, NoCounter()).t < 1.0F ? 1.0 : 0.0;
+        trials_[i].nanoseconds.push_back(1e9 * timer.seconds() / ray_count);
+        // Used, so that nothing is left out.
+        GROVE_CHECK(sum <= ray_count);
+      }
+    }
+    return std::move(trials_);
+  }
+
+ private:
+  template <typename C>
+  Hit trace(const TraceableOctree<G>& structure, const Ray& ray, C counter) const {
+    Hit hit;
+    hit.t = ray.t_max;
+    trace_closest(structure, geometry_, ray, hit, counter);
+    return hit;
+  }
+
+  void add(const OctreeContender& contender) {
+    OctreeTrial trial;
+    trial.name = contender.name;
+    const Timer timer;
+    Octree tree = build_octree(geometry_, contender.settings);
+    trial.build_seconds = timer.seconds();
+    trial.nodes = tree.nodes.size();
+    trial.leaves = tree.leaf_count();
+    trial.references = tree.references.size();
+    trial.bytes = tree.memory();
+    structures_.emplace_back(std::move(tree), geometry_, contender.walk, contender.mailbox);
+    TraversalCounts counts;
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      const Hit hit = trace(structures_.back(), rays_[i], Counter(counts));
+      if (structures_.size() == 1) expected_.push_back(hit.primitive);
+      GROVE_CHECK(hit.primitive == expected_[i]);
+    }
+    const auto ray_count = static_cast<double>(rays_.size());
+    trial.nodes_visited = static_cast<double>(counts.nodes_visited) / ray_count;
+    trial.leaves_entered = static_cast<double>(counts.leaves_entered) / ray_count;
+    trial.tests = static_cast<double>(counts.primitives_tested) / ray_count;
+    trials_.push_back(std::move(trial));
+  }
+
+  const G& geometry_;
+  std::span<const Ray> rays_;
+  std::vector<TraceableOctree<G>> structures_;
+  std::vector<OctreeTrial> trials_;
+  std::vector<std::uint32_t> expected_;
+};
+
+// Solves three linear equations by Cramer's rule.
+glm::dvec3 solve(const glm::dmat3& columns, const glm::dvec3& right) {
+  glm::dvec3 solution;
+  const double determinant = glm::determinant(columns);
+  for (int i = 0; i < 3; ++i) {
+    glm::dmat3 replaced = columns;
+    replaced[i] = right;
+    solution[i] = glm::determinant(replaced) / determinant;
+  }
+  return solution;
+}
+
+}  // namespace
+
+std::vector<OctreeTrial> try_octrees(const GeometryPointer& geometry, std::span<const OctreeContender> contenders, std::span<const Ray> rays,
+                                     unsigned rounds) {
+  return std::visit(
+      [&](const auto& set) {
+        using G = std::remove_cvref_t<decltype(*set)>;
+        return Trials<G>(*set, contenders, rays).run(rounds);
+      },
+      geometry);
+}
+
+std::uint64_t count_octree_leaves(const GeometryPointer& geometry, const OctreeSettings& settings) {
+  return std::visit([&](const auto& set) -> std::uint64_t { return build_octree(*set, settings).leaf_count(); }, geometry);
+}
+
+OctreeSettings match_leaves(const GeometryPointer& geometry, OctreeSettings settings, std::uint64_t leaves, int builds) {
+  // The dearer a step, the fewer leaves. Looked for between a fiftieth of the usual time and twenty times as much, by halving on a scale of powers.
+  double low = 0.02;
+  double high = 20.0;
+  double best_error = std::numeric_limits<double>::infinity();
+  OctreeSettings best = settings;
+  for (int i = 0; i < builds; ++i) {
+    settings.cost.traversal = std::sqrt(low * high);
+    const std::uint64_t found = count_octree_leaves(geometry, settings);
+    const double error = std::fabs(std::log(static_cast<double>(found) / static_cast<double>(leaves)));
+    if (error < best_error) {
+      best_error = error;
+      best = settings;
+    }
+    (found > leaves ? low : high) = settings.cost.traversal;
+  }
+  return best;
+}
+
+Equation5 fit_equation_5(std::span<const OctreeTrial> trials) {
+  glm::dmat3 normal(0.0);
+  glm::dvec3 right(0.0);
+  double mean = 0.0;
+  for (const OctreeTrial& trial : trials) {
+    const glm::dvec3 row(1.0, trial.nodes_visited, trial.tests);
+    const double time = spread_of(trial.nanoseconds).median;
+    normal += glm::outerProduct(row, row);
+    right += time * row;
+    mean += time / static_cast<double>(trials.size());
+  }
+  const glm::dvec3 solution = solve(normal, right);
+  Equation5 fit{solution.x, solution.y, solution.z, 0.0};
+  double left = 0.0;
+  double whole = 0.0;
+  for (const OctreeTrial& trial : trials) {
+    const double time = spread_of(trial.nanoseconds).median;
+    left += (time - fit.predict(trial)) * (time - fit.predict(trial));
+    whole += (time - mean) * (time - mean);
+  }
+  fit.r_squared = whole > 0.0 ? 1.0 - left / whole : 1.0;
+  return fit;
+}
+
+}  // namespace grove
