@@ -36,7 +36,7 @@ OctreeRSearch search_of(const std::string& name) {
 }
 
 OctreeSettings octree_r(const std::string& search) {
-  return {.split = OctreeSplit::octree_r, .leaf_size = 1, .search = search_of(search)};
+  return {.split = OctreeSplit::octree_r, .search = search_of(search)};
 }
 
 // By how many percent more rays a second go through the other, round by round.
@@ -104,7 +104,8 @@ void print_trials(const Scene& scene, std::span<const OctreeTrial> trials, nlohm
 }
 
 void print_head() {
-  fmt::print("| primitives | count | skew | octree | leaves | MiB | build ms | nodes a ray | tests | gain in tests | ns a ray | gain in time |\n");
+  fmt::print(
+      "| primitives | count | skew | octree | leaves | MiB | build ms | nodes a ray | tests | gain in tests | ns a ray | gain in time |\n");
   fmt::print("| --- | ---: | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | --- |\n");
 }
 
@@ -179,7 +180,8 @@ int run(int argc, char** argv) {
   app.add_option("--primitives", options.primitives, "spheres, triangles")->check(CLI::IsMember({"spheres", "triangles"}));
   app.add_option("--counts", options.counts, "how many primitives");
   app.add_option("--skews", options.skews, "how uneven: coordinates are u^skew")->check(CLI::Range(0.1, 100.0));
-  app.add_option("--searches", options.searches, "gain: how octree-R chooses planes")->check(CLI::IsMember({"candidates", "events", "joint"}));
+  app.add_option("--searches", options.searches, "gain: how octree-R chooses planes")
+      ->check(CLI::IsMember({"candidates", "events", "joint"}));
   app.add_option("--rays", options.rays, "rays a round")->check(CLI::Range(1, 100000000));
   app.add_option("--rounds", options.rounds, "rounds")->check(CLI::Range(1, 1000));
   app.add_option("--builds", options.builds, "gain: trees that are built to match the number of leaves")->check(CLI::Range(1, 100));

@@ -88,8 +88,8 @@ glm::dvec3 solve(const glm::dmat3& columns, const glm::dvec3& right) {
 
 }  // namespace
 
-std::vector<OctreeTrial> try_octrees(const GeometryPointer& geometry, std::span<const OctreeContender> contenders, std::span<const Ray> rays,
-                                     unsigned rounds) {
+std::vector<OctreeTrial> try_octrees(const GeometryPointer& geometry, std::span<const OctreeContender> contenders,
+                                     std::span<const Ray> rays, unsigned rounds) {
   return std::visit(
       [&](const auto& set) {
         using G = std::remove_cvref_t<decltype(*set)>;

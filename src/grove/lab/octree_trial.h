@@ -54,7 +54,9 @@ struct Equation5 {
   double per_test = 0.0;
   double r_squared = 0.0;  ///< the share of the variance of the times that is explained
 
-  [[nodiscard]] double predict(const OctreeTrial& trial) const { return per_ray + trial.nodes_visited * per_voxel + trial.tests * per_test; }
+  [[nodiscard]] double predict(const OctreeTrial& trial) const {
+    return per_ray + trial.nodes_visited * per_voxel + trial.tests * per_test;
+  }
 };
 
 /// Least squares over trials, by the medians of their times; at least three that differ in both counts.

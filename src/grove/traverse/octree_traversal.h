@@ -52,7 +52,13 @@ void walk_top_down(const Octree& tree, const OctreeRay& octree_ray, float first,
         met ^= 1U << number;
         const std::uint32_t octant = number ^ octree_ray.flip;
         const bool is_leaf = (node.leaf_mask >> octant & 1U) != 0;
-        stack[stack_size++] = {is_leaf ? node.leaf(octant) | kLeaf : node.child(octant), stretches.first[number], stretches.last[number]};
+        const std::uint32_t child = is_leaf ? node.leaf(octant) : node.child(octant);
+        if (is_leaf) {
+          __builtin_prefetch(leaf_first + child);
+        } else {
+          __builtin_prefetch(nodes + child);
+        }
+        stack[stack_size++] = {is_leaf ? child | kLeaf : child, stretches.first[number], stretches.last[number]};
       }
       counter.reach_stack_depth(stack_size);
     }

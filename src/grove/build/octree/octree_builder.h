@@ -59,7 +59,7 @@ class OctreeBuilder {
 
   /// Whether a set is a leaf whatever is in it.
   [[nodiscard]] bool is_small(std::size_t count, const OctreeCell& cell) const {
-    return count <= settings_.leaf_size || cell.depth >= most_depth_;
+    return count <= settings_.largest_leaf() || cell.depth >= most_depth_;
   }
 
   /// Tasks above, one task's work below.

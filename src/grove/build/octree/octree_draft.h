@@ -36,6 +36,8 @@ class DraftSlot {
 struct DraftLeaf {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
+  /// Whether it is as it was in an octree that is being updated.
+  bool is_kept = false;
 };
 
 struct DraftNode {
@@ -43,6 +45,8 @@ struct DraftNode {
   std::uint8_t cut_axes = 0;
   /// How many primitives the cell's set had, before it was parted.
   std::uint32_t count = 0;
+  /// As in DraftLeaf, with all that is below.
+  bool is_kept = false;
   DraftLeaf own;
   std::array<DraftSlot, 8> octants;
 };
@@ -61,7 +65,7 @@ struct OctreeDraft {
   }
   /// A node without octants yet. `count` as in DraftNode.
   DraftSlot add_node(const Vec3& planes, std::uint32_t cut_axes, std::size_t count, std::span<const std::uint32_t> own) {
-    nodes.push_back({planes, static_cast<std::uint8_t>(cut_axes), static_cast<std::uint32_t>(count), add(own), {}});
+    nodes.push_back({planes, static_cast<std::uint8_t>(cut_axes), static_cast<std::uint32_t>(count), false, add(own), {}});
     return DraftSlot::node(nodes.size() - 1);
   }
   [[nodiscard]] std::span<const std::uint32_t> ids_of(const DraftLeaf& leaf) const { return {references.data() + leaf.first, leaf.count}; }
@@ -96,7 +100,7 @@ struct OctreeDraft {
   DraftLeaf add(std::span<const std::uint32_t> ids) {
     const auto first = static_cast<std::uint32_t>(references.size());
     references.insert(references.end(), ids.begin(), ids.end());
-    return {first, static_cast<std::uint32_t>(ids.size())};
+    return {first, static_cast<std::uint32_t>(ids.size()), false};
   }
 };
 

@@ -33,6 +33,11 @@ struct OctreeItem {
     return place.slot.kind() == DraftSlot::Kind::leaf ? place.draft->ids_of_leaf(place.slot) : std::span<const std::uint32_t>(loose);
   }
   [[nodiscard]] std::size_t count() const { return is_node() ? node().count : ids().size(); }
+  /// Whether it comes from an octree that is being updated, and nothing in it has changed.
+  [[nodiscard]] bool is_kept() const {
+    if (is_node()) return node().is_kept;
+    return place.slot.kind() == DraftSlot::Kind::leaf && place.draft->leaves[place.slot.number()].is_kept;
+  }
 };
 
 /// No primitive may be in two items, and nodes of the same cell must have the same planes.
@@ -70,6 +75,8 @@ class OctreeMerger {
   };
 
   DraftSlot merge(const std::vector<OctreeItem>& items, const OctreeCell& cell, Task& task) const {
+    if (items.empty()) return {};
+    if (items.size() == 1 && items[0].is_kept()) return copy(items[0].place, task.draft);
     std::size_t count = 0;
     const DraftNode* cut_by = nullptr;
     for (const OctreeItem& item : items) {
@@ -104,6 +111,19 @@ class OctreeMerger {
     parallel_for(octants.size(), 1, [&](std::size_t i) {
       task.draft.parts[first_part + i] = std::make_unique<OctreeDraft>(merge(parted.octants[octants[i]], child(octants[i])));
     });
+    return slot;
+  }
+
+  // A subtree as it is.
+  static DraftSlot copy(const OctreeDraft::Place& place, OctreeDraft& draft) {
+    if (place.slot.kind() == DraftSlot::Kind::leaf) return draft.add_leaf(place.draft->ids_of_leaf(place.slot));
+    const DraftNode& node = place.draft->nodes[place.slot.number()];
+    const DraftSlot slot = draft.add_node(node.planes, node.cut_axes, node.count, place.draft->ids_of(node.own));
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+      if (node.octants[octant].kind() == DraftSlot::Kind::empty) continue;
+      const DraftSlot below = copy(place.draft->resolve(node.octants[octant]), draft);
+      draft.nodes[slot.number()].octants[octant] = below;
+    }
     return slot;
   }
 
