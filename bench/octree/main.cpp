@@ -1,5 +1,5 @@
 // The experiments on octrees whose tables docs/octree.md has: octree-R beside an octree of as many leaves on ever more uneven scenes, how many planes it is
-// worth to try, and how well equation 5 of the review predicts times. On one pinned thread, round by round.
+// worth to try, both walks and both stores, and how well equation 5 of the review predicts times. On one pinned thread, round by round.
 
 #include <fmt/format.h>
 
@@ -27,6 +27,7 @@ struct Options {
   std::size_t rays = 20000;
   unsigned rounds = 5;
   int builds = 8;
+  std::string walk = "top-down";
   std::string json;
 };
 
@@ -141,16 +142,38 @@ nlohmann::json run_candidates(const Options& options) {
   return rows;
 }
 
+// Both walks and both stores, with and without a mailbox.
+nlohmann::json run_walks(const Options& options) {
+  nlohmann::json rows = nlohmann::json::array();
+  print_head();
+  for_each_scene(options, [&](const Scene& scene) {
+    const OctreeSettings inner{.store = OctreeStore::inner};
+    const OctreeContender contenders[] = {{"octree", {}},
+                                          {"without mailbox", {}, OctreeWalk::top_down, UseMailbox::no},
+                                          {"neighbour", {}, OctreeWalk::neighbour},
+                                          {"neighbour by links", {}, OctreeWalk::neighbour, UseMailbox::yes, true},
+                                          {"inner", inner, OctreeWalk::top_down, UseMailbox::no},
+                                          {"inner, neighbour", inner, OctreeWalk::neighbour, UseMailbox::no},
+                                          {"octree-R", octree_r("candidates")},
+                                          {"octree-R, neighbour", octree_r("candidates"), OctreeWalk::neighbour},
+                                          {"octree-R by links", octree_r("candidates"), OctreeWalk::neighbour, UseMailbox::yes, true}};
+    const Pinned pinned;
+    print_trials(scene, try_octrees(scene.geometry, contenders, scene.rays, options.rounds), rows);
+  });
+  return rows;
+}
+
 // Trees of many sizes: their times against those of the equation fitted to them.
 nlohmann::json run_cost(const Options& options) {
   nlohmann::json rows = nlohmann::json::array();
   for_each_scene(options, [&](const Scene& scene) {
     std::vector<OctreeContender> contenders;
+    const OctreeWalk walk = options.walk == "neighbour" ? OctreeWalk::neighbour : OctreeWalk::top_down;
     for (const std::uint32_t leaf_size : {1U, 2U, 4U, 8U, 16U, 32U, 64U}) {
-      contenders.push_back({fmt::format("octree, leaves of {}", leaf_size), {.leaf_size = leaf_size}});
+      contenders.push_back({fmt::format("octree, leaves of {}", leaf_size), {.leaf_size = leaf_size}, walk});
       OctreeSettings settings = octree_r("events");
       settings.leaf_size = leaf_size;
-      contenders.push_back({fmt::format("octree-R, leaves of {}", leaf_size), settings});
+      contenders.push_back({fmt::format("octree-R, leaves of {}", leaf_size), settings, walk});
     }
     const Pinned pinned;
     const std::vector<OctreeTrial> trials = try_octrees(scene.geometry, contenders, scene.rays, options.rounds);
@@ -176,12 +199,14 @@ nlohmann::json run_cost(const Options& options) {
 int run(int argc, char** argv) {
   Options options;
   CLI::App app{"Experiments on octrees: octree-R against octree, candidates, and the cost model."};
-  app.add_option("experiment", options.experiment, "gain, candidates or cost")->check(CLI::IsMember({"gain", "candidates", "cost"}));
+  app.add_option("experiment", options.experiment, "gain, candidates, walks or cost")
+      ->check(CLI::IsMember({"gain", "candidates", "walks", "cost"}));
   app.add_option("--primitives", options.primitives, "spheres, triangles")->check(CLI::IsMember({"spheres", "triangles"}));
   app.add_option("--counts", options.counts, "how many primitives");
   app.add_option("--skews", options.skews, "how uneven: coordinates are u^skew")->check(CLI::Range(0.1, 100.0));
   app.add_option("--searches", options.searches, "gain: how octree-R chooses planes")
       ->check(CLI::IsMember({"candidates", "events", "joint"}));
+  app.add_option("--walk", options.walk, "cost: how rays walk")->check(CLI::IsMember({"top-down", "neighbour"}));
   app.add_option("--rays", options.rays, "rays a round")->check(CLI::Range(1, 100000000));
   app.add_option("--rounds", options.rounds, "rounds")->check(CLI::Range(1, 1000));
   app.add_option("--builds", options.builds, "gain: trees that are built to match the number of leaves")->check(CLI::Range(1, 100));
@@ -193,6 +218,7 @@ int run(int argc, char** argv) {
                         {"machine", {{"cpu", machine.cpu}, {"cores", machine.cores}, {"compiler", machine.compiler}, {"os", machine.os}}}};
   report["rows"] = options.experiment == "gain"         ? run_gain(options)
                    : options.experiment == "candidates" ? run_candidates(options)
+                   : options.experiment == "walks"      ? run_walks(options)
                                                         : run_cost(options);
   if (!options.json.empty()) write_text_file(options.json, report.dump(2) + "\n");
   return 0;

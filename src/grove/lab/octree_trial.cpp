@@ -7,6 +7,7 @@
 #include "grove/base/check.h"
 #include "grove/base/timer.h"
 #include "grove/build/octree/build_octree.h"
+#include "grove/lab/octree_links.h"
 #include "grove/lab/spread.h"
 
 namespace grove {
@@ -25,7 +26,7 @@ class Trials {
       for (std::size_t i = 0; i < structures_.size(); ++i) {
         const Timer timer;
         double sum = 0.0;
-        for (const Ray& ray : rays_) sum += trace(structures_[i], ray, NoCounter()).t < 1.0F ? 1.0 : 0.0;
+        for (const Ray& ray : rays_) sum += trace(structures_[i], links_[i], ray, NoCounter()).t < 1.0F ? 1.0 : 0.0;
         trials_[i].nanoseconds.push_back(1e9 * timer.seconds() / ray_count);
         // Used, so that nothing is left out.
         GROVE_CHECK(sum <= ray_count);
@@ -36,10 +37,18 @@ class Trials {
 
  private:
   template <typename C>
-  Hit trace(const TraceableOctree<G>& structure, const Ray& ray, C counter) const {
+  Hit trace(const TraceableOctree<G>& structure, const OctreeLinks& links, const Ray& ray, C counter) const {
     Hit hit;
     hit.t = ray.t_max;
-    trace_closest(structure, geometry_, ray, hit, counter);
+    if (links.cells.empty()) {
+      trace_closest(structure, geometry_, ray, hit, counter);
+    } else {
+      const auto walk_leaves = [&](const float& t_max, const auto& leaf) {
+        walk_by_links(structure.tree, links, ray, t_max, leaf, counter);
+      };
+      trace_closest_in_leaves(geometry_, structure.leaves, structure.tree.references.data(), structure.mailbox, ray, hit, walk_leaves,
+                              counter);
+    }
     return hit;
   }
 
@@ -53,10 +62,13 @@ class Trials {
     trial.leaves = tree.leaf_count();
     trial.references = tree.references.size();
     trial.bytes = tree.memory();
+    GROVE_CHECK(!contender.has_links || contender.settings.store == OctreeStore::leaf);
+    links_.push_back(contender.has_links ? link_octree(tree) : OctreeLinks());
+    trial.bytes += links_.back().memory();
     structures_.emplace_back(std::move(tree), geometry_, contender.walk, contender.mailbox);
     TraversalCounts counts;
     for (std::size_t i = 0; i < rays_.size(); ++i) {
-      const Hit hit = trace(structures_.back(), rays_[i], Counter(counts));
+      const Hit hit = trace(structures_.back(), links_.back(), rays_[i], Counter(counts));
       if (structures_.size() == 1) expected_.push_back(hit.primitive);
       GROVE_CHECK(hit.primitive == expected_[i]);
     }
@@ -70,6 +82,7 @@ class Trials {
   const G& geometry_;
   std::span<const Ray> rays_;
   std::vector<TraceableOctree<G>> structures_;
+  std::vector<OctreeLinks> links_;
   std::vector<OctreeTrial> trials_;
   std::vector<std::uint32_t> expected_;
 };

@@ -20,6 +20,8 @@ struct OctreeContender {
   OctreeSettings settings;
   OctreeWalk walk = OctreeWalk::top_down;
   UseMailbox mailbox = UseMailbox::yes;
+  /// Whether neighbours are found by stored links (lab/octree_links.h); only with OctreeStore::leaf. `walk` says nothing then.
+  bool has_links = false;
 };
 
 /// Counts and times are for an average ray.
@@ -28,7 +30,7 @@ struct OctreeTrial {
   std::uint64_t nodes = 0;  ///< that cut a cell
   std::uint64_t leaves = 0;
   std::uint64_t references = 0;
-  std::uint64_t bytes = 0;  ///< of nodes, leaves and references
+  std::uint64_t bytes = 0;  ///< of nodes, leaves, references and links
   double build_seconds = 0.0;
   double nodes_visited = 0.0;
   double leaves_entered = 0.0;

@@ -45,15 +45,25 @@ struct OctreeWayOut {
   }
 };
 
+/// In which octant of a node a ray is during all of a crossing, and whether that is sure.
+struct OctreeChoice {
+  std::uint32_t octant;  // by number as the ray comes to them
+  bool is_certain;
+
+  OctreeChoice(const OctreeRay& ray, const OctreeNode& node, const OctreeCrossing& crossing) {
+    const Float4 planes = planes_of(node);
+    const auto before = static_cast<std::uint32_t>(first_three_lanes(splat(crossing.last) < ray.entry(planes)));
+    const auto behind = static_cast<std::uint32_t>(first_three_lanes(splat(crossing.first) > ray.departure(planes)));
+    // Where the cell is not cut all is below the plane.
+    const std::uint32_t uncut = ~std::uint32_t{node.cut_axes} & 7U;
+    octant = (behind & ~uncut) | (ray.flip & uncut);
+    is_certain = (before | behind | uncut) == 7;
+  }
+};
+
 /// The nodes above the cell that a ray is in.
 class OctreePath {
  public:
-  /// The octants that a crossing decides on, and whether it does.
-  struct Choice {
-    std::uint32_t octant;  // by number as the ray comes to them
-    bool is_certain;
-  };
-
   OctreePath(const Octree& tree, const OctreeRay& ray) : nodes_(tree.nodes.data()), ray_(ray) {
     Vec3 far;
     for (int axis = 0; axis < 3; ++axis) far[axis] = (ray.flip >> axis & 1U) != 0 ? tree.cell.lower[axis] : tree.cell.upper[axis];
@@ -61,16 +71,6 @@ class OctreePath {
   }
 
   [[nodiscard]] const OctreeNode& node() const { return nodes_[levels_[level_].node]; }
-
-  /// In which octant of the node the ray is during all of a crossing.
-  [[nodiscard]] Choice choose(const OctreeCrossing& crossing) const {
-    const Float4 planes = planes_of(node());
-    const auto before = static_cast<std::uint32_t>(first_three_lanes(splat(crossing.last) < ray_.entry(planes)));
-    const auto behind = static_cast<std::uint32_t>(first_three_lanes(splat(crossing.first) > ray_.departure(planes)));
-    // Where the cell is not cut all is below the plane.
-    const std::uint32_t uncut = ~std::uint32_t{node().cut_axes} & 7U;
-    return {(behind & ~uncut) | (ray_.flip & uncut), (before | behind | uncut) == 7};
-  }
 
   /// Goes to an octant of the node. Returns whether that is a node; else it is the cell that far() is about.
   bool enter(std::uint32_t octant) {
@@ -149,7 +149,7 @@ void walk_by_neighbours(const Octree& tree, const Ray& ray, const float& t_max, 
       counter.visit_node();
       const OctreeNode& node = path.node();
       if (node.has_own != 0 && test(node.first_leaf)) return;
-      const OctreePath::Choice choice = path.choose(crossing);
+      const OctreeChoice choice(octree_ray, node, crossing);
       if (!choice.is_certain) {
         walk_top_down(tree, octree_ray, crossing.first > first ? crossing.first : first, t_max < last ? t_max : last, t_max, leaf, counter);
         return;
