@@ -1,5 +1,5 @@
 // The experiments on octrees whose tables docs/octree.md has: octree-R beside an octree of as many leaves on ever more uneven scenes, how many planes it is
-// worth to try, both walks and both stores, and how well equation 5 of the review predicts times. On one pinned thread, round by round.
+// worth to try, both walks and both stores, updates, and how well equation 5 of the review predicts times. On one pinned thread, round by round.
 
 #include <fmt/format.h>
 
@@ -163,6 +163,39 @@ nlohmann::json run_walks(const Options& options) {
   return rows;
 }
 
+// Trees that follow primitives which are put elsewhere, against building anew, on all threads.
+nlohmann::json run_update(const Options& options) {
+  nlohmann::json rows = nlohmann::json::array();
+  fmt::print(
+      "| primitives | count | skew | octree | moved | update ms | build ms | times as fast |\n| --- | ---: | ---: | --- | ---: | ---: | "
+      "---: | --- |\n");
+  for_each_scene(options, [&](const Scene& scene) {
+    const std::pair<const char*, OctreeSettings> trees[] = {
+        {"leaf", {}}, {"inner", {.store = OctreeStore::inner}}, {"octree-R", octree_r("candidates")}};
+    for (const auto& [name, settings] : trees) {
+      for (const std::size_t stride : {10000U, 1000U, 100U, 10U, 4U}) {
+        std::vector<std::uint32_t> moved;
+        const GeometryPointer after = scatter_again(scene.settings, stride, 7, moved);
+        const OctreeUpdateTrial trial = try_octree_update(scene.geometry, after, moved, settings, options.rounds);
+        std::vector<double> ratios;
+        for (std::size_t i = 0; i < trial.update_seconds.size(); ++i) ratios.push_back(trial.build_seconds[i] / trial.update_seconds[i]);
+        const Spread ratio = spread_of(ratios);
+        fmt::print("| {} | {} | {} | {} | {} | {:.3g} | {:.3g} | {:.1f} ({:.1f} to {:.1f}) |\n", name_of(scene.settings.primitive),
+                   scene.settings.count, scene.settings.skew, name, moved.size(), 1e3 * spread_of(trial.update_seconds).median,
+                   1e3 * spread_of(trial.build_seconds).median, ratio.median, ratio.min, ratio.max);
+        nlohmann::json row = scene.json();
+        row.update({{"name", name},
+                    {"moved", moved.size()},
+                    {"update_seconds", json_of(spread_of(trial.update_seconds))},
+                    {"build_seconds", json_of(spread_of(trial.build_seconds))},
+                    {"times_as_fast", json_of(ratio)}});
+        rows.push_back(std::move(row));
+      }
+    }
+  });
+  return rows;
+}
+
 // Trees of many sizes: their times against those of the equation fitted to them.
 nlohmann::json run_cost(const Options& options) {
   nlohmann::json rows = nlohmann::json::array();
@@ -199,8 +232,8 @@ nlohmann::json run_cost(const Options& options) {
 int run(int argc, char** argv) {
   Options options;
   CLI::App app{"Experiments on octrees: octree-R against octree, candidates, and the cost model."};
-  app.add_option("experiment", options.experiment, "gain, candidates, walks or cost")
-      ->check(CLI::IsMember({"gain", "candidates", "walks", "cost"}));
+  app.add_option("experiment", options.experiment, "gain, candidates, walks, update or cost")
+      ->check(CLI::IsMember({"gain", "candidates", "walks", "update", "cost"}));
   app.add_option("--primitives", options.primitives, "spheres, triangles")->check(CLI::IsMember({"spheres", "triangles"}));
   app.add_option("--counts", options.counts, "how many primitives");
   app.add_option("--skews", options.skews, "how uneven: coordinates are u^skew")->check(CLI::Range(0.1, 100.0));
@@ -219,6 +252,7 @@ int run(int argc, char** argv) {
   report["rows"] = options.experiment == "gain"         ? run_gain(options)
                    : options.experiment == "candidates" ? run_candidates(options)
                    : options.experiment == "walks"      ? run_walks(options)
+                   : options.experiment == "update"     ? run_update(options)
                                                         : run_cost(options);
   if (!options.json.empty()) write_text_file(options.json, report.dump(2) + "\n");
   return 0;

@@ -111,6 +111,22 @@ TEST(OctreeUpdate, KeepsPlanesOfOctreeR) {
   EXPECT_EQ(lost, 0U);
 }
 
+TEST(OctreeUpdate, FollowsALittleBeyondTheBounds) {
+  for (const OctreeSplit split : {OctreeSplit::median, OctreeSplit::octree_r}) {
+    Crowd crowd(300, 8);
+    const OctreeSettings settings{.split = split};
+    const Octree tree = build_octree(crowd.mesh(), settings);
+    // The one that holds the upper end of the bounds.
+    const std::uint32_t id = 1;
+    crowd.move(id, Vec3(0.01F));
+    const TriangleMesh mesh = crowd.mesh();
+    const auto updated = update_octree(tree, mesh, settings, std::span(&id, 1));
+    ASSERT_TRUE(updated.has_value());
+    EXPECT_EQ(updated->validate(mesh.size()), "");
+    EXPECT_TRUE(updated->bounds.contains(mesh.bounds(id)));
+  }
+}
+
 TEST(OctreeUpdate, AsksForANewTreeWhereTheRootDoesNotFit) {
   Crowd crowd(300, 8);
   const Octree tree = build_octree(crowd.mesh(), {});

@@ -27,6 +27,21 @@ TEST(ScatteredGeometry, IsWhatIsAskedFor) {
   }
 }
 
+TEST(ScatteredGeometry, MovesOnlySome) {
+  for (const ScatteredPrimitive primitive : {ScatteredPrimitive::spheres, ScatteredPrimitive::triangles}) {
+    const ScatterSettings settings{primitive, 100, 1.5, 3};
+    std::vector<std::uint32_t> moved;
+    const GeometryPointer before = scatter(settings);
+    const GeometryPointer after = scatter_again(settings, 10, 4, moved);
+    EXPECT_EQ(moved.size(), 10U);
+    const auto bounds = [](const GeometryPointer& geometry, std::size_t i) {
+      return std::visit([&](const auto& set) { return set->bounds(i); }, geometry);
+    };
+    for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(bounds(before, i).lower == bounds(after, i).lower, i % 10 != 0) << i;
+    EXPECT_EQ(try_octree_update(before, after, moved, {}, 2).update_seconds.size(), 2U);
+  }
+}
+
 // All ways to walk give the same hits, which try_octrees checks, and do what they must.
 TEST(OctreeTrial, CountsWhatRaysDo) {
   const GeometryPointer geometry = scatter({ScatteredPrimitive::triangles, 3000, 2.0, 4});

@@ -76,7 +76,7 @@ struct Octree {
   HugeVector<std::uint32_t> leaf_first;  ///< where the references of each leaf begin, and one more entry: where the last end
   HugeVector<std::uint32_t> references;  ///< primitive ids, leaf by leaf; ascending within one
   Box bounds;                            ///< of the primitives; empty when there are no references
-  Box cell;                              ///< of the root: a cube around `bounds` for octrees with planes in the middle
+  Box cell;                              ///< of the root: around `bounds`; a cube for octrees with planes in the middle
   std::uint32_t depth = 0;               ///< edges from the root to the deepest leaf
 
   [[nodiscard]] std::uint32_t leaf_count() const { return leaf_first.empty() ? 0 : static_cast<std::uint32_t>(leaf_first.size() - 1); }

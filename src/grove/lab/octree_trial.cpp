@@ -5,8 +5,10 @@
 #include <variant>
 
 #include "grove/base/check.h"
+#include "grove/base/error.h"
 #include "grove/base/timer.h"
 #include "grove/build/octree/build_octree.h"
+#include "grove/build/octree/update_octree.h"
 #include "grove/lab/octree_links.h"
 #include "grove/lab/spread.h"
 
@@ -109,6 +111,26 @@ std::vector<OctreeTrial> try_octrees(const GeometryPointer& geometry, std::span<
         return Trials<G>(*set, contenders, rays).run(rounds);
       },
       geometry);
+}
+
+OctreeUpdateTrial try_octree_update(const GeometryPointer& before, const GeometryPointer& after, std::span<const std::uint32_t> moved,
+                                    const OctreeSettings& settings, unsigned rounds) {
+  const Octree tree = std::visit([&](const auto& set) { return build_octree(*set, settings); }, before);
+  OctreeUpdateTrial trial;
+  for (unsigned round = 0; round < rounds; ++round) {
+    std::visit(
+        [&](const auto& set) {
+          const Timer update_timer;
+          const std::optional<Octree> updated = update_octree(tree, *set, settings, moved);
+          trial.update_seconds.push_back(update_timer.seconds());
+          if (!updated.has_value()) throw InputError("the octree cannot follow: its root does not fit any more");
+          const Timer build_timer;
+          const Octree built = build_octree(*set, settings);
+          trial.build_seconds.push_back(build_timer.seconds());
+        },
+        after);
+  }
+  return trial;
 }
 
 std::uint64_t count_octree_leaves(const GeometryPointer& geometry, const OctreeSettings& settings) {

@@ -49,6 +49,17 @@ struct OctreeTrial {
 /// Settings of octree-R with such a time of a step that it has as nearly `leaves` leaves as `builds` trials can find; fewer where it has not as many at no cost.
 [[nodiscard]] OctreeSettings match_leaves(const GeometryPointer& geometry, OctreeSettings settings, std::uint64_t leaves, int builds);
 
+/// Seconds by round of bringing an octree up to date, and of building it anew, in turn; without what a structure keeps for testing primitives.
+struct OctreeUpdateTrial {
+  std::vector<double> update_seconds;
+  std::vector<double> build_seconds;
+};
+
+/// An octree over `before` is made to follow to `after`, where primitives `moved` are elsewhere; both of one kind of geometry. Throws InputError where it takes a new
+/// tree (update_octree).
+[[nodiscard]] OctreeUpdateTrial try_octree_update(const GeometryPointer& before, const GeometryPointer& after,
+                                                  std::span<const std::uint32_t> moved, const OctreeSettings& settings, unsigned rounds);
+
 /// Equation 5 of the review with what belongs to a ray whatever it does: nanoseconds = per_ray + nodes visited * per_voxel + tests * per_test.
 struct Equation5 {
   double per_ray = 0.0;

@@ -1,5 +1,6 @@
 #include "grove/lab/scattered_geometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -24,6 +25,56 @@ Vec3 random_direction(Random& random) {
   return Vec3(glm::dvec3(across * std::cos(azimuth), across * std::sin(azimuth), z));
 }
 
+// Centres are drawn one after the other.
+class Scatter {
+ public:
+  explicit Scatter(const ScatterSettings& settings) : random(settings.seed), skew_(settings.skew) {
+    constexpr double kFilled = 0.01;
+    const double volume = kFilled / static_cast<double>(settings.count);
+    radius = static_cast<float>(std::cbrt(volume * 3.0 / (4.0 * std::numbers::pi)));
+  }
+  Vec3 next_centre() {
+    const Vec3 u = random_point(random);
+    Vec3 p;
+    for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(std::pow(static_cast<double>(u[axis]), skew_));
+    return p;
+  }
+
+  Random random;
+  float radius;
+
+ private:
+  double skew_;
+};
+
+std::vector<SphereSet::Sphere> scatter_spheres(const ScatterSettings& settings) {
+  Scatter scatter(settings);
+  std::vector<SphereSet::Sphere> spheres;
+  spheres.reserve(settings.count);
+  for (std::size_t i = 0; i < settings.count; ++i) spheres.push_back({scatter.next_centre(), scatter.radius});
+  return spheres;
+}
+
+// Three corners each.
+std::vector<Vec3> scatter_triangles(const ScatterSettings& settings) {
+  Scatter scatter(settings);
+  std::vector<Vec3> corners;
+  corners.reserve(3 * settings.count);
+  for (std::size_t i = 0; i < settings.count; ++i) {
+    const Vec3 at = scatter.next_centre();
+    const Vec3 first = random_direction(scatter.random);
+    const Vec3 second = random_direction(scatter.random);
+    corners.insert(corners.end(), {at, at + 2.0F * scatter.radius * first, at + 2.0F * scatter.radius * second});
+  }
+  return corners;
+}
+
+GeometryPointer make_mesh(std::vector<Vec3> corners) {
+  std::vector<Triangle> triangles(corners.size() / 3);
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) triangles[i] = {3 * i, 3 * i + 1, 3 * i + 2};
+  return std::make_shared<const TriangleMesh>(std::move(corners), std::move(triangles));
+}
+
 }  // namespace
 
 std::string_view name_of(ScatteredPrimitive primitive) {
@@ -31,34 +82,25 @@ std::string_view name_of(ScatteredPrimitive primitive) {
 }
 
 GeometryPointer scatter(const ScatterSettings& settings) {
-  constexpr double kFilled = 0.01;
-  const double volume = kFilled / static_cast<double>(settings.count);
-  const auto radius = static_cast<float>(std::cbrt(volume * 3.0 / (4.0 * std::numbers::pi)));
-  Random random(settings.seed);
-  const auto centre = [&] {
-    const Vec3 u = random_point(random);
-    Vec3 p;
-    for (int axis = 0; axis < 3; ++axis) p[axis] = static_cast<float>(std::pow(static_cast<double>(u[axis]), settings.skew));
-    return p;
-  };
+  if (settings.primitive == ScatteredPrimitive::spheres) return std::make_shared<const SphereSet>(scatter_spheres(settings));
+  return make_mesh(scatter_triangles(settings));
+}
+
+GeometryPointer scatter_again(const ScatterSettings& settings, std::size_t stride, std::uint64_t seed, std::vector<std::uint32_t>& moved) {
+  ScatterSettings elsewhere = settings;
+  elsewhere.seed = seed;
+  moved.clear();
+  for (std::size_t i = 0; i < settings.count; i += stride) moved.push_back(static_cast<std::uint32_t>(i));
   if (settings.primitive == ScatteredPrimitive::spheres) {
-    std::vector<SphereSet::Sphere> spheres;
-    spheres.reserve(settings.count);
-    for (std::size_t i = 0; i < settings.count; ++i) spheres.push_back({centre(), radius});
+    std::vector<SphereSet::Sphere> spheres = scatter_spheres(settings);
+    const std::vector<SphereSet::Sphere> others = scatter_spheres(elsewhere);
+    for (const std::uint32_t i : moved) spheres[i] = others[i];
     return std::make_shared<const SphereSet>(std::move(spheres));
   }
-  std::vector<Vec3> vertices;
-  std::vector<Triangle> triangles;
-  vertices.reserve(3 * settings.count);
-  triangles.reserve(settings.count);
-  for (std::uint32_t i = 0; i < settings.count; ++i) {
-    const Vec3 at = centre();
-    const Vec3 first = random_direction(random);
-    const Vec3 second = random_direction(random);
-    vertices.insert(vertices.end(), {at, at + 2.0F * radius * first, at + 2.0F * radius * second});
-    triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
-  }
-  return std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles));
+  std::vector<Vec3> corners = scatter_triangles(settings);
+  const std::vector<Vec3> others = scatter_triangles(elsewhere);
+  for (const std::uint32_t i : moved) std::copy_n(others.begin() + 3 * i, 3, corners.begin() + 3 * i);
+  return make_mesh(std::move(corners));
 }
 
 std::vector<Ray> rays_inside(const Box& box, std::size_t count, std::uint64_t seed) {

@@ -27,6 +27,10 @@ struct ScatterSettings {
 /// The same settings give the same geometry on every machine, as far as its pow rounds alike.
 [[nodiscard]] GeometryPointer scatter(const ScatterSettings& settings);
 
+/// The same with every `stride`-th primitive, from number 0 on, where another seed puts it. `moved` becomes their numbers.
+[[nodiscard]] GeometryPointer scatter_again(const ScatterSettings& settings, std::size_t stride, std::uint64_t seed,
+                                            std::vector<std::uint32_t>& moved);
+
 /// Rays with origins uniform in the box and uniform directions, without end.
 [[nodiscard]] std::vector<Ray> rays_inside(const Box& box, std::size_t count, std::uint64_t seed);
 

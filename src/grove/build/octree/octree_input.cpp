@@ -13,15 +13,26 @@ std::uint32_t depth_limit(const OctreeSettings& settings, std::size_t size) {
   return std::min(settings.most_depth > 0 ? settings.most_depth : automatic, Octree::kMaxDepth);
 }
 
-// The smallest cube around a box that has its lower corner. Where rounding would leave something outside, its side grows.
+// Room on each side of the bounds, as a part of their extent, so that primitives can move a little beyond without a new tree (update_octree.h).
+constexpr float kMargin = 1.0F / 64.0F;
+
+// A cube around a box with that margin, which has the box in its lower corner. Where rounding would leave something outside, its side grows.
 Box cube_around(const Box& box) {
-  float side = box.extent()[box.longest_axis()];
+  const float longest = box.extent()[box.longest_axis()];
+  const Vec3 lower = box.lower - Vec3(kMargin * longest);
+  float side = longest + 2.0F * kMargin * longest;
   Box cube;
   do {
-    cube = {box.lower, box.lower + Vec3(side)};
+    cube = {lower, lower + Vec3(side)};
     side = std::nextafter(side, std::numeric_limits<float>::infinity());
   } while (!cube.contains(box));
   return cube;
+}
+
+// The box with the margin; flat ones stay flat.
+Box box_around(const Box& box) {
+  const Vec3 margin = kMargin * box.extent();
+  return {box.lower - margin, box.upper + margin};
 }
 
 HugeVector<std::uint32_t> ids_of(const HugeVector<PrimitiveReference>& references) {
@@ -43,7 +54,7 @@ HugeVector<PrimitiveReference> indexed_by_primitive(HugeVector<PrimitiveReferenc
 
 OctreeInput::OctreeInput(ReferenceList list, const OverlapTest& overlap_test, const OctreeSettings& settings)
     : bounds(list.bounds),
-      cell(settings.split == OctreeSplit::octree_r ? bounds : cube_around(bounds)),
+      cell(settings.split == OctreeSplit::octree_r ? box_around(bounds) : cube_around(bounds)),
       ids(ids_of(list.references)),
       references(indexed_by_primitive(std::move(list.references))),
       source{references, overlap_test},

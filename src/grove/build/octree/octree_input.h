@@ -15,8 +15,8 @@ struct OctreeInput {
   OctreeInput(ReferenceList list, const OverlapTest& overlap_test, const OctreeSettings& settings);
 
   Box bounds;
-  Box cell;                                   ///< of the root: the bounds for octree-R, whose planes go by costs, else a cube around them
-  HugeVector<std::uint32_t> ids;              ///< of what can be hit, ascending
+  Box cell;                       ///< of the root: around the bounds; for octree-R, whose planes go by costs, of their form, else a cube
+  HugeVector<std::uint32_t> ids;  ///< of what can be hit, ascending
   HugeVector<PrimitiveReference> references;  ///< by primitive
   OctantSource source;
   std::uint32_t most_depth;

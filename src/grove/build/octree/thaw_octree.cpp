@@ -18,6 +18,15 @@ class Thaw {
   [[nodiscard]] OctreeDraft root() const {
     OctreeDraft draft;
     const OctreeNode& node = tree_.nodes[0];
+    if (node.cut_axes == 0) {
+      // Never cut: a leaf.
+      std::vector<std::uint32_t> left;
+      const bool is_kept = filter(node.first_leaf, left);
+      if (left.empty()) return draft;
+      draft.root = draft.add_leaf(left);
+      draft.leaves.back().is_kept = is_kept;
+      return draft;
+    }
     std::vector<std::uint32_t> octants;
     for (std::uint32_t octant = 0; octant < 8; ++octant)
       if ((node.interior_mask >> octant & 1U) != 0) octants.push_back(octant);
