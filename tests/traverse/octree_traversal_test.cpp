@@ -139,7 +139,7 @@ TEST(OctreeWalk, TestsOwnReferencesBeforeOctants) {
   Octree tree;
   tree.bounds = tree.cell = {Vec3(0.0F), Vec3(1.0F)};
   tree.depth = 1;
-  tree.nodes.push_back({{0.5F, 0.5F, 0.5F}, 0, 0, 0, 0b10000001, 1, 7});
+  tree.nodes.push_back({{0.5F, 0.5F, 0.5F}, 1, 0, 0, 0b10000001, 1, 7});
   for (const std::uint32_t first : {0U, 1U, 2U, 3U}) tree.leaf_first.push_back(first);
   for (const std::uint32_t id : {0U, 1U, 2U}) tree.references.push_back(id);
   ASSERT_EQ(tree.validate(3), "");

@@ -5,32 +5,32 @@
 namespace grove {
 namespace {
 
-// The first fault of what a node says of its children, or an empty string. Children and leaves must be the next that no node has named yet.
-std::string fault_of_links(const Octree& tree) {
-  std::vector<bool> is_named(tree.nodes.size(), false);
-  std::vector<bool> has_leaf(tree.leaf_count(), false);
-  is_named[0] = true;
-  for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
-    const OctreeNode& node = tree.nodes[i];
-    const std::string name = "node " + std::to_string(i);
+// What a node says of its children and leaves, which must be the next: numbers are depth first.
+class LinkCheck {
+ public:
+  explicit LinkCheck(const Octree& tree) : tree_(tree) {}
+
+  // The first fault of a node in words, or an empty string; to be called in the order of Octree::visit.
+  std::string next(std::uint32_t number) {
+    const OctreeNode& node = tree_.nodes[number];
+    const std::string name = "node " + std::to_string(number);
     if ((node.interior_mask & node.leaf_mask) != 0 || node.has_own > 1 || node.cut_axes > 7) return name + " has an octant of two kinds";
     const std::uint32_t children = count_octants(node.interior_mask);
     if (children == 0 && node.leaf_count() == 0) return name + " has nothing in it";
-    if (children > 0 && (node.first_child <= i || node.first_child + std::size_t{children} > tree.nodes.size()))
-      return name + " names a child that cannot be";
-    if (node.first_leaf + std::size_t{node.leaf_count()} > tree.leaf_count()) return name + " names a leaf that is not there";
-    for (std::uint32_t child = node.first_child; child < node.first_child + children; ++child) {
-      if (is_named[child]) return "node " + std::to_string(child) + " has two parents";
-      is_named[child] = true;
-    }
-    for (std::uint32_t leaf = node.first_leaf; leaf < node.first_leaf + node.leaf_count(); ++leaf) {
-      if (has_leaf[leaf]) return "leaf " + std::to_string(leaf) + " has two parents";
-      has_leaf[leaf] = true;
-    }
+    if (node.first_child != next_node_) return name + " names a child that is not the next";
+    if (node.first_leaf != next_leaf_) return name + " names a leaf that is not the next";
+    next_node_ += children;
+    next_leaf_ += node.leaf_count();
+    if (next_node_ > tree_.nodes.size() || next_leaf_ > tree_.leaf_count()) return name + " names a child or leaf that is not there";
+    return "";
   }
-  if (std::find(is_named.begin(), is_named.end(), false) != is_named.end()) return "a node is not reached";
-  return std::find(has_leaf.begin(), has_leaf.end(), false) == has_leaf.end() ? "" : "a leaf is not reached";
-}
+  [[nodiscard]] bool is_complete() const { return next_node_ == tree_.nodes.size() && next_leaf_ == tree_.leaf_count(); }
+
+ private:
+  const Octree& tree_;
+  std::size_t next_node_ = 1;
+  std::size_t next_leaf_ = 0;
+};
 
 std::string fault_of_leaves(const Octree& tree, std::size_t primitive_count) {
   if (tree.leaf_first.front() != 0 || tree.leaf_first.back() != tree.references.size()) return "leaves do not hold all references";
@@ -65,18 +65,23 @@ std::string fault_of_planes(const OctreeNode& node, const Box& cell) {
 std::string Octree::validate(std::size_t primitive_count) const {
   if (nodes.empty()) return references.empty() && leaf_first.empty() && bounds.is_empty() && depth == 0 ? "" : "an empty tree is not empty";
   if (leaf_first.empty()) return "there are no leaves";
-  std::string fault = fault_of_links(*this);
-  if (fault.empty()) fault = fault_of_leaves(*this, primitive_count);
+  std::string fault = fault_of_leaves(*this, primitive_count);
   if (!fault.empty()) return fault;
   if (!cell.contains(bounds)) return "the root's cell does not hold everything";
 
   std::uint32_t deepest = 0;
-  visit([&](const Visited& visited) {
-    if (!fault.empty()) return;
-    deepest = std::max(deepest, visited.is_leaf ? visited.depth : 0);
-    if (!visited.is_leaf) fault = fault_of_planes(nodes[visited.node], visited.cell);
-  });
+  LinkCheck links(*this);
+  // Checked before their children are looked at, so that the visit cannot run astray.
+  const auto check = [&](const Visited& visited) {
+    if (visited.is_leaf) deepest = std::max(deepest, visited.depth);
+    if (visited.is_leaf) return true;
+    fault = links.next(visited.node);
+    if (fault.empty()) fault = fault_of_planes(nodes[visited.node], visited.cell);
+    return fault.empty();
+  };
+  visit(check);
   if (!fault.empty()) return fault;
+  if (!links.is_complete()) return "a node or leaf is not reached";
   if (deepest != depth) return "the depth is " + std::to_string(deepest) + ", not " + std::to_string(depth) + " as stated";
   return depth <= kMaxDepth ? "" : "deeper than the traversal stack";
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "grove/base/huge_vector.h"
@@ -64,8 +65,9 @@ static_assert(sizeof(OctreeNode) == 24);
 /// An octree, as plain data: cells that are cut in eight again and again until few primitives reach into them. The form is the same whether the planes
 /// are in the middle (octree) or elsewhere (octree-R), and whether primitives are referenced in leaves or in inner nodes.
 ///
-/// Node 0 is the root; what is never cut is a root with references of its own and no children. References are those of leaf 0, leaf 1 and so on, and the
-/// leaves of a node follow each other, so that a leaf is no more than where its references begin. Cells are closed: a plane belongs to both sides. Each point
+/// Node 0 is the root; what is never cut is a root with references of its own and no children. Nodes and leaves are numbered depth first: the children of a node, then
+/// what is below the first of them, then the second, and so on; so what is below a node is in a row. References are those of leaf 0, leaf 1 and so on, so
+/// that a leaf is no more than where its references begin. Cells are closed: a plane belongs to both sides. Each point
 /// of a primitive inside `bounds` lies in the cell of a leaf, or of a node with own references, that refers to the primitive. An empty tree has no nodes.
 /// Knows boxes and primitive ids, no geometry.
 struct Octree {
@@ -89,6 +91,22 @@ struct Octree {
   /// empty leaf, ids ascending within a leaf and below `primitive_count`, `depth` as found. O(nodes + references).
   [[nodiscard]] std::string validate(std::size_t primitive_count) const;
 
+  /// The nodes below a node, and its leaves and theirs.
+  struct Below {
+    std::uint32_t first_node, end_node;
+    std::uint32_t first_leaf, end_leaf;
+  };
+  /// O(depth).
+  [[nodiscard]] Below below(std::uint32_t number) const {
+    const OctreeNode* last = &nodes[number];
+    Below below{last->first_child, 0, last->first_leaf, 0};
+    // What comes last is below the last child, and ends where a node without children says that its children would be.
+    while (last->interior_mask != 0) last = &nodes[last->first_child + count_octants(last->interior_mask) - 1];
+    below.end_node = last->first_child;
+    below.end_leaf = last->first_leaf + last->leaf_count();
+    return below;
+  }
+
   /// A node, or a set of references, as `visit` shows them.
   struct Visited {
     Box cell;
@@ -98,7 +116,8 @@ struct Octree {
     std::uint32_t first;
     std::uint32_t count;
   };
-  /// Calls visitor(Visited) for each node in depth-first order: parents first, then their own references, then octants in order.
+  /// Calls visitor(Visited) for each node in depth-first order: parents first, then their own references, then octants in order. A visitor that returns
+  /// false ends the visit.
   template <typename Visitor>
   void visit(const Visitor& visitor) const;
 };
@@ -111,8 +130,14 @@ void Octree::visit(const Visitor& visitor) const {
     std::uint32_t parent;
     bool is_leaf;
   };
+  // Whether to go on.
+  const auto show = [&](const Visited& visited) {
+    if constexpr (std::is_same_v<decltype(visitor(visited)), bool>) return visitor(visited);
+    visitor(visited);
+    return true;
+  };
   const auto show_leaf = [&](const Box& leaf_cell, std::uint32_t leaf_depth, std::uint32_t node, std::uint32_t leaf) {
-    visitor(Visited{leaf_cell, leaf_depth, node, true, leaf_first[leaf], leaf_first[leaf + 1] - leaf_first[leaf]});
+    return show({leaf_cell, leaf_depth, node, true, leaf_first[leaf], leaf_first[leaf + 1] - leaf_first[leaf]});
   };
   if (nodes.empty()) return;
   std::vector<Pending> stack{{cell, 0, 0, 0, false}};
@@ -120,12 +145,12 @@ void Octree::visit(const Visitor& visitor) const {
     const Pending top = stack.back();
     stack.pop_back();
     if (top.is_leaf) {
-      show_leaf(top.cell, top.depth, top.parent, top.number);
+      if (!show_leaf(top.cell, top.depth, top.parent, top.number)) return;
       continue;
     }
     const OctreeNode& node = nodes[top.number];
-    visitor(Visited{top.cell, top.depth, top.number, false, 0, 0});
-    if (node.has_own != 0) show_leaf(top.cell, top.depth, top.number, node.first_leaf);
+    if (!show({top.cell, top.depth, top.number, false, 0, 0})) return;
+    if (node.has_own != 0 && !show_leaf(top.cell, top.depth, top.number, node.first_leaf)) return;
     for (std::uint32_t octant = 8; octant-- > 0;) {
       const bool is_interior = (node.interior_mask >> octant & 1U) != 0;
       if (!is_interior && (node.leaf_mask >> octant & 1U) == 0) continue;

@@ -15,7 +15,7 @@ namespace grove {
 /// What an octant of a draft is, in one word.
 class DraftSlot {
  public:
-  enum class Kind : std::uint8_t { empty, node, leaf, part };
+  enum class Kind : std::uint8_t { empty, node, leaf, part, kept };
 
   DraftSlot() = default;
   [[nodiscard]] static DraftSlot node(std::size_t number) { return DraftSlot(number, Kind::node); }
@@ -23,11 +23,16 @@ class DraftSlot {
   /// What the part of this number has as its root.
   [[nodiscard]] static DraftSlot part(std::size_t number) { return DraftSlot(number, Kind::part); }
 
-  [[nodiscard]] Kind kind() const { return static_cast<Kind>(word_ & 3U); }
-  [[nodiscard]] std::uint32_t number() const { return word_ >> 2U; }
+  /// A node of the octree that is being updated, with all below it.
+  [[nodiscard]] static DraftSlot kept(std::size_t number) { return DraftSlot(number, Kind::kept); }
+
+  [[nodiscard]] Kind kind() const { return static_cast<Kind>(word_ & 7U); }
+  [[nodiscard]] std::uint32_t number() const { return word_ >> 3U; }
+  /// Numbers are smaller.
+  static constexpr std::size_t kMostNumbers = std::size_t{1} << 29U;
 
  private:
-  DraftSlot(std::size_t number, Kind kind) : word_(static_cast<std::uint32_t>(number) << 2U | static_cast<std::uint32_t>(kind)) {}
+  DraftSlot(std::size_t number, Kind kind) : word_(static_cast<std::uint32_t>(number) << 3U | static_cast<std::uint32_t>(kind)) {}
 
   std::uint32_t word_ = 0;
 };
@@ -36,8 +41,6 @@ class DraftSlot {
 struct DraftLeaf {
   std::uint32_t first = 0;
   std::uint32_t count = 0;
-  /// Whether it is as it was in an octree that is being updated.
-  bool is_kept = false;
 };
 
 struct DraftNode {
@@ -45,8 +48,6 @@ struct DraftNode {
   std::uint8_t cut_axes = 0;
   /// How many primitives the cell's set had, before it was parted.
   std::uint32_t count = 0;
-  /// As in DraftLeaf, with all that is below.
-  bool is_kept = false;
   DraftLeaf own;
   std::array<DraftSlot, 8> octants;
 };
@@ -65,7 +66,7 @@ struct OctreeDraft {
   }
   /// A node without octants yet. `count` as in DraftNode.
   DraftSlot add_node(const Vec3& planes, std::uint32_t cut_axes, std::size_t count, std::span<const std::uint32_t> own) {
-    nodes.push_back({planes, static_cast<std::uint8_t>(cut_axes), static_cast<std::uint32_t>(count), false, add(own), {}});
+    nodes.push_back({planes, static_cast<std::uint8_t>(cut_axes), static_cast<std::uint32_t>(count), add(own), {}});
     return DraftSlot::node(nodes.size() - 1);
   }
   [[nodiscard]] std::span<const std::uint32_t> ids_of(const DraftLeaf& leaf) const { return {references.data() + leaf.first, leaf.count}; }
@@ -100,7 +101,7 @@ struct OctreeDraft {
   DraftLeaf add(std::span<const std::uint32_t> ids) {
     const auto first = static_cast<std::uint32_t>(references.size());
     references.insert(references.end(), ids.begin(), ids.end());
-    return {first, static_cast<std::uint32_t>(ids.size()), false};
+    return {first, static_cast<std::uint32_t>(ids.size())};
   }
 };
 

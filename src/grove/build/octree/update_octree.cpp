@@ -7,7 +7,6 @@
 #include "grove/build/octree/octree_input.h"
 #include "grove/build/octree/octree_merger.h"
 #include "grove/build/octree/pack_octree.h"
-#include "grove/build/octree/thaw_octree.h"
 
 namespace grove {
 namespace {
@@ -35,16 +34,23 @@ std::optional<Octree> update_octree(const Octree& tree, ReferenceList list, cons
   for (const std::uint32_t id : input.ids)
     if (is_changed[id]) added.push_back(id);
 
-  const OctreeDraft before = thaw_octree(tree, is_changed, settings.largest_leaf());
+  const ChangedOctree before(tree, is_changed, settings.largest_leaf());
   std::vector<OctreeItem> items;
-  if (before.root.kind() != DraftSlot::Kind::empty) items.push_back(OctreeItem::subtree(before.resolve(before.root)));
+  if (tree.nodes[0].cut_axes == 0) {
+    // Never cut: a leaf.
+    std::vector<std::uint32_t> left;
+    before.append_leaf(0, left);
+    if (!left.empty()) items.push_back(OctreeItem::set(left, before.is_leaf_kept(0)));
+  } else if (before.reference_count(0) > 0) {
+    items.push_back(OctreeItem::subtree(before, 0));
+  }
   if (!added.empty()) items.push_back(OctreeItem::set(added));
   std::uint64_t references = 0;
   for (const OctreeItem& item : items) references += item.count();
   if (references > input.capacity) return std::nullopt;
   const OctreeDraft after =
       with_octree_builder(input, settings, [&](const auto& builder) { return OctreeMerger(builder).merge(items, input.root(tree.cell)); });
-  return pack_octree(after, input.bounds, tree.cell);
+  return pack_octree(after, input.bounds, tree.cell, &tree);
 }
 
 }  // namespace grove
