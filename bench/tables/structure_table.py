@@ -127,12 +127,12 @@ def print_summary(structures, reports):
 
 def print_by_scene(spec, base, reports):
     """One structure relative to another, scene by scene."""
-    print(f"| `{spec}` / `{base}` | primitives | build time | bytes | references a primitive | nodes + tests: diffuse | random | speed: diffuse | random |")
+    print(f"| `{spec}` / `{base}` | primitives | build time | bytes | references | nodes + tests: diffuse | random | speed: diffuse | random |")
     print("| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |")
     for scene, report in reports.items():
         rows = rows_of(report)
-        cells = [ratio(rows, spec, base, "diffuse", build_time), ratio(rows, spec, base, "diffuse", lambda row: row["bytes"])]
-        cells += [rows[spec]["diffuse"]["references"] / max(report["primitives"], 1)]
+        cells = [ratio(rows, spec, base, "diffuse", build_time)]
+        cells += [ratio(rows, spec, base, "diffuse", lambda row, key=key: row[key]) for key in ("bytes", "references")]
         cells += [ratio(rows, spec, base, kind, value) for value in (steps, speed) for kind in ("diffuse", "random")]
         print(f"| {scene} | {report['primitives']:,} | " + " | ".join(f"{cell:.2f}" for cell in cells) + " |")
     print(flush=True)
