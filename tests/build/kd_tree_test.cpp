@@ -7,8 +7,8 @@
 #include <map>
 #include <string>
 
-#include "build/points_in_leaves.h"
 #include "build/degenerate_meshes.h"
+#include "build/points_in_leaves.h"
 #include "build/sample_meshes.h"
 #include "build/threads.h"
 #include "grove/build/kd_tree/add_ropes.h"

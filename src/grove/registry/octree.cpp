@@ -1,11 +1,16 @@
+#include <optional>
+#include <utility>
+
 #include "grove/base/check.h"
 #include "grove/base/error.h"
 #include "grove/base/timer.h"
 #include "grove/build/cost_model.h"
 #include "grove/build/octree/build_octree.h"
+#include "grove/build/octree/update_octree.h"
 #include "grove/registry/families.h"
 #include "grove/registry/octree_statistics.h"
 #include "grove/registry/structure_accelerator.h"
+#include "grove/registry/update_by_rebuilding.h"
 #include "grove/traverse/traceable_octree.h"
 
 namespace grove {
@@ -40,7 +45,10 @@ struct OctreeOptions {
 };
 
 template <Geometry G>
-StructureState<TraceableOctree<G>> build_state(const G& geometry, const OctreeOptions& options) {
+using OctreeState = StructureState<TraceableOctree<G>>;
+
+template <Geometry G>
+OctreeState<G> build_state(const G& geometry, const OctreeOptions& options) {
   const Timer timer;
   Octree tree = build_octree(geometry, options.settings);
   GROVE_ASSERT(tree.validate(geometry.size()).empty());
@@ -51,13 +59,61 @@ StructureState<TraceableOctree<G>> build_state(const G& geometry, const OctreeOp
 }
 
 template <Geometry G>
+double cost_of(const OctreeState<G>& state) {
+  return expected_cost(state.structure.tree, CostModel());
+}
+
+/// Updates one octree: locally where it is told what changed and that is not most of it, else by building anew.
+template <Geometry G>
+class OctreeFollower {
+ public:
+  explicit OctreeFollower(const OctreeOptions& options) : options_(options) {}
+
+  UpdateReport operator()(OctreeState<G>& state, const G& geometry, const UpdateSettings& settings) {
+    const Timer timer;
+    if (settings.policy != UpdatePolicy::rebuild && is_worth_local(settings, geometry.size())) {
+      std::optional<Octree> updated = update_octree(state.structure.tree, geometry, options_.settings, settings.changed);
+      if (updated.has_value()) {
+        GROVE_ASSERT(updated->validate(geometry.size()).empty());
+        UpdateReport report;
+        report.method = UpdateMethod::local;
+        if (!built_cost_.has_value()) built_cost_ = cost_of(state);
+        report.built_cost = *built_cost_;
+        state.structure = TraceableOctree<G>(*std::move(updated), geometry, options_.walk, options_.mailbox);
+        state.bounds = state.structure.tree.bounds;
+        report.cost = cost_of(state);
+        report.seconds = timer.seconds();
+        return report;
+      }
+    }
+    const std::optional<double> built_cost = std::exchange(built_cost_, std::nullopt);
+    const auto measure = [](const OctreeState<G>& now) { return StructureMeasure{cost_of(now), now.structure.tree.references.size()}; };
+    UpdateReport report = update_by_rebuilding(
+        state, geometry, [&](const G& changed) { return build_state(changed, options_); }, measure);
+    report.built_cost = built_cost.value_or(report.built_cost);
+    return report;
+  }
+
+ private:
+  // Local updates of more take about as long as building (docs/octree.md).
+  static bool is_worth_local(const UpdateSettings& settings, std::size_t size) {
+    constexpr std::size_t kLargestShare = 4;
+    return !settings.changed.empty() && (settings.policy != UpdatePolicy::automatic || settings.changed.size() <= size / kLargestShare);
+  }
+
+  OctreeOptions options_;
+  /// Of the tree that was last built as a whole, once there have been local updates since.
+  std::optional<double> built_cost_;
+};
+
+template <Geometry G>
 std::unique_ptr<Accelerator> build_over(const Spec& spec, std::shared_ptr<const G> geometry) {
   using Structure = TraceableOctree<G>;
-  using State = StructureState<Structure>;
+  using State = OctreeState<G>;
   const OctreeOptions options(spec);
   const auto count = [](const State& state, const G& /*geometry*/) {
     StructureStatistics statistics = count_nodes(state.structure.tree);
-    statistics.expected_cost = expected_cost(state.structure.tree, CostModel());
+    statistics.expected_cost = cost_of(state);
     statistics.bytes = state.structure.memory();
     return statistics;
   };
@@ -66,18 +122,9 @@ std::unique_ptr<Accelerator> build_over(const Spec& spec, std::shared_ptr<const 
   };
   // Overlap is a measure of hierarchies: cells have none.
   const auto measure = [](const Structure&, const G&) { return StructureQuality{}; };
-  const auto update = [options](State& state, const G& set, const UpdateSettings& /*settings*/) {
-    UpdateReport report;
-    report.built_cost = expected_cost(state.structure.tree, CostModel());
-    state = build_state(set, options);
-    report.cost = expected_cost(state.structure.tree, CostModel());
-    report.rebuilt_references = state.structure.tree.references.size();
-    report.seconds = state.build_seconds;
-    return report;
-  };
   State state = build_state(*geometry, options);
   return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), count, view, measure,
-                                                              update);
+                                                              OctreeFollower<G>(options));
 }
 
 }  // namespace
