@@ -1,6 +1,6 @@
 #pragma once
 
-// Tracing a kd-tree over a geometry: what its leaves do, with or without a mailbox.
+// Tracing a kd-tree over a geometry.
 
 #include <cstdint>
 #include <utility>
@@ -9,11 +9,9 @@
 #include "grove/geometry/leaf_storage.h"
 #include "grove/traverse/kd_rope_traversal.h"
 #include "grove/traverse/kd_tree_traversal.h"
-#include "grove/traverse/mailbox.h"
+#include "grove/traverse/referenced_leaves.h"
 
 namespace grove {
-
-enum class UseMailbox : std::uint8_t { no, yes };
 
 /// A kd-tree together with the way its leaves reach the primitives of a geometry.
 template <Geometry G>
@@ -54,57 +52,20 @@ void walk_by_either(const TraceableKdTree<G>& structure, const Ray& ray, const f
   }
 }
 
-template <typename M, Geometry G, typename C>
-void trace_closest_with(const TraceableKdTree<G>& structure, const G& geometry, const Ray& ray, Hit& hit, C& counter) {
-  M mailbox;
-  const typename G::PreparedRay prepared = geometry.prepare(ray);
-  const std::uint32_t* const references = structure.tree.references.data();
-  const auto test_leaf = [&](std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t slot = first; slot < first + count; ++slot) {
-      if (mailbox.remembers(references[slot])) continue;
-      counter.test_primitive();
-      structure.leaves.intersect(geometry, references, slot, prepared, hit, counter);
-    }
-    return false;
-  };
-  walk_by_either(structure, ray, hit.t, test_leaf, counter);
-}
-
-template <typename M, Geometry G, typename C>
-bool trace_any_with(const TraceableKdTree<G>& structure, const G& geometry, const Ray& ray, C& counter) {
-  M mailbox;
-  const typename G::PreparedRay prepared = geometry.prepare(ray);
-  const std::uint32_t* const references = structure.tree.references.data();
-  bool found = false;
-  const auto test_leaf = [&](std::uint32_t first, std::uint32_t count) {
-    for (std::uint32_t slot = first; slot < first + count && !found; ++slot) {
-      if (mailbox.remembers(references[slot])) continue;
-      counter.test_primitive();
-      found = structure.leaves.occluded(geometry, references, slot, prepared, counter);
-    }
-    return found;
-  };
-  walk_by_either(structure, ray, ray.t_max, test_leaf, counter);
-  return found;
-}
-
 }  // namespace detail
 
 /// Closest hit. `hit.t` must start as the ray's t_max.
 template <Geometry G, typename C>
 void trace_closest(const TraceableKdTree<G>& structure, const G& geometry, const Ray& ray, Hit& hit, C& counter) {
-  if (structure.mailbox == UseMailbox::yes) {
-    detail::trace_closest_with<Mailbox>(structure, geometry, ray, hit, counter);
-  } else {
-    detail::trace_closest_with<NoMailbox>(structure, geometry, ray, hit, counter);
-  }
+  const auto walk_leaves = [&](const float& t_max, const auto& leaf) { detail::walk_by_either(structure, ray, t_max, leaf, counter); };
+  trace_closest_in_leaves(geometry, structure.leaves, structure.tree.references.data(), structure.mailbox, ray, hit, walk_leaves, counter);
 }
 
 /// Any hit within [ray.t_min, ray.t_max].
 template <Geometry G, typename C>
 bool trace_any(const TraceableKdTree<G>& structure, const G& geometry, const Ray& ray, C& counter) {
-  if (structure.mailbox == UseMailbox::yes) return detail::trace_any_with<Mailbox>(structure, geometry, ray, counter);
-  return detail::trace_any_with<NoMailbox>(structure, geometry, ray, counter);
+  const auto walk_leaves = [&](const float& t_max, const auto& leaf) { detail::walk_by_either(structure, ray, t_max, leaf, counter); };
+  return trace_any_in_leaves(geometry, structure.leaves, structure.tree.references.data(), structure.mailbox, ray, walk_leaves, counter);
 }
 
 }  // namespace grove
