@@ -15,7 +15,7 @@ namespace grove::test {
   if (family == "kdtree")
     return {"kdtree", "kdtree:split=binned,walk=ropes,mailbox=false", "kdtree:split=object-median,clip=false,walk=ropes,leaf-size=4"};
   if (family == "octree")
-    return {"octree", "octree:split=octree-r,walk=neighbour,planes=joint,mailbox=false",
+    return {"octree", "octree:split=octree-r,walk=neighbour,planes=joint,candidates=3,mailbox=false",
             "octree:store=inner,walk=neighbour,build=merge,leaf-size=1"};
   return {};
 }
