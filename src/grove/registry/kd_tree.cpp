@@ -3,9 +3,9 @@
 #include "grove/build/kd_tree/add_ropes.h"
 #include "grove/build/kd_tree/build_kd_tree.h"
 #include "grove/build/kd_tree/update_kd_tree.h"
+#include "grove/registry/cell_tree_accelerator.h"
 #include "grove/registry/families.h"
 #include "grove/registry/kd_tree_statistics.h"
-#include "grove/registry/structure_accelerator.h"
 #include "grove/registry/update_by_rebuilding.h"
 #include "grove/traverse/traceable_kd_tree.h"
 
@@ -48,11 +48,6 @@ KdTreeState<G> build_state(const G& geometry, const KdTreeOptions& options) {
   return {std::move(structure), bounds, seconds, {}};
 }
 
-template <Geometry G>
-double cost_of(const KdTreeState<G>& state) {
-  return state.expected_cost ? *state.expected_cost : expected_cost(state.structure.tree, CostModel());
-}
-
 /// Updates one tree: locally where it is told what changed and that is not most of it, else by building anew.
 template <Geometry G>
 class KdTreeFollower {
@@ -62,8 +57,7 @@ class KdTreeFollower {
   UpdateReport operator()(KdTreeState<G>& state, const G& geometry, const UpdateSettings& settings) {
     const Timer timer;
     UpdateReport report;
-    if (settings.policy != UpdatePolicy::rebuild && is_worth_local(settings, geometry.size()) &&
-        follow(state, geometry, settings, report)) {
+    if (is_worth_local(settings, geometry.size(), kLargestShare) && follow(state, geometry, settings, report)) {
       report.seconds = timer.seconds();
       return report;
     }
@@ -78,10 +72,7 @@ class KdTreeFollower {
 
  private:
   // Local updates of more take longer than building (docs/kdtree.md).
-  static bool is_worth_local(const UpdateSettings& settings, std::size_t size) {
-    constexpr std::size_t kLargestShare = 6;
-    return !settings.changed.empty() && (settings.policy != UpdatePolicy::automatic || settings.changed.size() <= size / kLargestShare);
-  }
+  static constexpr std::size_t kLargestShare = 6;
 
   // Returns false where the tree is to be built anew.
   bool follow(KdTreeState<G>& state, const G& geometry, const UpdateSettings& settings, UpdateReport& report) {
@@ -110,23 +101,9 @@ class KdTreeFollower {
 
 template <Geometry G>
 std::unique_ptr<Accelerator> build_over(const Spec& spec, std::shared_ptr<const G> geometry) {
-  using Structure = TraceableKdTree<G>;
-  using State = KdTreeState<G>;
   const KdTreeOptions options(spec);
-  const auto count = [](const State& state, const G& /*geometry*/) {
-    StructureStatistics statistics = count_nodes(state.structure.tree);
-    statistics.expected_cost = cost_of(state);
-    statistics.bytes = state.structure.memory();
-    return statistics;
-  };
-  const auto view = [](const Structure& structure, const std::function<void(const NodeView&)>& visit) {
-    view_nodes(structure.tree, visit);
-  };
-  // Overlap is a measure of hierarchies: cells have none.
-  const auto measure = [](const Structure&, const G&) { return StructureQuality{}; };
-  State state = build_state(*geometry, options);
-  return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), count, view, measure,
-                                                              KdTreeFollower<G>(options));
+  KdTreeState<G> state = build_state(*geometry, options);
+  return make_cell_tree_accelerator(spec.canonical(), std::move(state), std::move(geometry), KdTreeFollower<G>(options));
 }
 
 }  // namespace

@@ -4,12 +4,11 @@
 #include "grove/base/check.h"
 #include "grove/base/error.h"
 #include "grove/base/timer.h"
-#include "grove/build/cost_model.h"
 #include "grove/build/octree/build_octree.h"
 #include "grove/build/octree/update_octree.h"
+#include "grove/registry/cell_tree_accelerator.h"
 #include "grove/registry/families.h"
 #include "grove/registry/octree_statistics.h"
-#include "grove/registry/structure_accelerator.h"
 #include "grove/registry/update_by_rebuilding.h"
 #include "grove/traverse/traceable_octree.h"
 
@@ -58,11 +57,6 @@ OctreeState<G> build_state(const G& geometry, const OctreeOptions& options) {
   return {std::move(structure), bounds, seconds, {}};
 }
 
-template <Geometry G>
-double cost_of(const OctreeState<G>& state) {
-  return expected_cost(state.structure.tree, CostModel());
-}
-
 /// Updates one octree: locally where it is told what changed and that is not most of it, else by building anew.
 template <Geometry G>
 class OctreeFollower {
@@ -71,7 +65,7 @@ class OctreeFollower {
 
   UpdateReport operator()(OctreeState<G>& state, const G& geometry, const UpdateSettings& settings) {
     const Timer timer;
-    if (settings.policy != UpdatePolicy::rebuild && is_worth_local(settings, geometry.size())) {
+    if (is_worth_local(settings, geometry.size(), kLargestShare)) {
       std::optional<Octree> updated = update_octree(state.structure.tree, geometry, options_.settings, settings.changed);
       if (updated.has_value()) {
         GROVE_ASSERT(updated->validate(geometry.size()).empty());
@@ -96,10 +90,7 @@ class OctreeFollower {
 
  private:
   // Local updates of more take about as long as building (docs/octree.md).
-  static bool is_worth_local(const UpdateSettings& settings, std::size_t size) {
-    constexpr std::size_t kLargestShare = 4;
-    return !settings.changed.empty() && (settings.policy != UpdatePolicy::automatic || settings.changed.size() <= size / kLargestShare);
-  }
+  static constexpr std::size_t kLargestShare = 4;
 
   OctreeOptions options_;
   /// Of the tree that was last built as a whole, once there have been local updates since.
@@ -108,23 +99,9 @@ class OctreeFollower {
 
 template <Geometry G>
 std::unique_ptr<Accelerator> build_over(const Spec& spec, std::shared_ptr<const G> geometry) {
-  using Structure = TraceableOctree<G>;
-  using State = OctreeState<G>;
   const OctreeOptions options(spec);
-  const auto count = [](const State& state, const G& /*geometry*/) {
-    StructureStatistics statistics = count_nodes(state.structure.tree);
-    statistics.expected_cost = cost_of(state);
-    statistics.bytes = state.structure.memory();
-    return statistics;
-  };
-  const auto view = [](const Structure& structure, const std::function<void(const NodeView&)>& visit) {
-    view_nodes(structure.tree, visit);
-  };
-  // Overlap is a measure of hierarchies: cells have none.
-  const auto measure = [](const Structure&, const G&) { return StructureQuality{}; };
-  State state = build_state(*geometry, options);
-  return std::make_unique<StructureAccelerator<Structure, G>>(std::move(state), std::move(geometry), spec.canonical(), count, view, measure,
-                                                              OctreeFollower<G>(options));
+  OctreeState<G> state = build_state(*geometry, options);
+  return make_cell_tree_accelerator(spec.canonical(), std::move(state), std::move(geometry), OctreeFollower<G>(options));
 }
 
 }  // namespace
