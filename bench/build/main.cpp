@@ -6,8 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
-#include <exception>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -17,6 +15,7 @@
 #include "grove/lab/spread.h"
 #include "grove/registry/registry.h"
 #include "grove/scene/load.h"
+#include "program.h"
 #include "trace/contender.h"
 #include "trace/pinned.h"
 #include "trace/world_mesh.h"
@@ -159,10 +158,5 @@ int run(int argc, char** argv) {
 }  // namespace grove::bench
 
 int main(int argc, char** argv) {
-  try {
-    return grove::bench::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "grove_build_bench: %s\n", error.what());
-    return 1;
-  }
+  return grove::bench::run_program("grove_build_bench", grove::bench::run, argc, argv);
 }

@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <nlohmann/json.hpp>
 
 #include "grove/base/output_file.h"
@@ -13,6 +12,7 @@
 #include "grove/lab/octree_trial.h"
 #include "grove/lab/scattered_geometry.h"
 #include "grove/lab/spread.h"
+#include "program.h"
 #include "trace/pinned.h"
 
 namespace grove::bench {
@@ -262,10 +262,5 @@ int run(int argc, char** argv) {
 }  // namespace grove::bench
 
 int main(int argc, char** argv) {
-  try {
-    return grove::bench::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "grove_octree_bench: %s\n", error.what());
-    return 1;
-  }
+  return grove::bench::run_program("grove_octree_bench", grove::bench::run, argc, argv);
 }

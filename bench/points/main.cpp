@@ -6,8 +6,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
-#include <exception>
 #include <nanoflann.hpp>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -21,6 +19,7 @@
 #include "grove/lab/machine.h"
 #include "grove/lab/spread.h"
 #include "grove/traverse/points/point_search.h"
+#include "program.h"
 #include "trace/pinned.h"
 
 namespace grove::bench {
@@ -191,10 +190,5 @@ int run(int argc, char** argv) {
 }  // namespace grove::bench
 
 int main(int argc, char** argv) {
-  try {
-    return grove::bench::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "grove_point_bench: %s\n", error.what());
-    return 1;
-  }
+  return grove::bench::run_program("grove_point_bench", grove::bench::run, argc, argv);
 }

@@ -7,8 +7,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
-#include <exception>
 #include <thread>
 
 #include "grove/base/output_file.h"
@@ -18,6 +16,7 @@
 #include "grove/lab/workload.h"
 #include "grove/registry/registry.h"
 #include "grove/scene/load.h"
+#include "program.h"
 #include "trace/world_mesh.h"
 
 namespace grove::bench {
@@ -254,10 +253,5 @@ int run(int argc, char** argv) {
 }  // namespace grove::bench
 
 int main(int argc, char** argv) {
-  try {
-    return grove::bench::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "grove_update_bench: %s\n", error.what());
-    return 1;
-  }
+  return grove::bench::run_program("grove_update_bench", grove::bench::run, argc, argv);
 }
