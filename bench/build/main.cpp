@@ -12,12 +12,12 @@
 #include "grove/base/output_file.h"
 #include "grove/base/timer.h"
 #include "grove/lab/machine.h"
+#include "grove/lab/pinned.h"
 #include "grove/lab/spread.h"
 #include "grove/registry/registry.h"
 #include "grove/scene/load.h"
 #include "program.h"
 #include "trace/contender.h"
-#include "trace/pinned.h"
 #include "trace/world_mesh.h"
 
 namespace grove::bench {

@@ -10,10 +10,10 @@
 #include "grove/base/output_file.h"
 #include "grove/lab/machine.h"
 #include "grove/lab/octree_trial.h"
+#include "grove/lab/pinned.h"
 #include "grove/lab/scattered_geometry.h"
 #include "grove/lab/spread.h"
 #include "program.h"
-#include "trace/pinned.h"
 
 namespace grove::bench {
 namespace {

@@ -17,10 +17,10 @@
 #include "grove/base/timer.h"
 #include "grove/build/points/build_point_kd_tree.h"
 #include "grove/lab/machine.h"
+#include "grove/lab/pinned.h"
 #include "grove/lab/spread.h"
 #include "grove/traverse/points/point_search.h"
 #include "program.h"
-#include "trace/pinned.h"
 
 namespace grove::bench {
 namespace {

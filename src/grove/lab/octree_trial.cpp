@@ -10,6 +10,7 @@
 #include "grove/build/octree/build_octree.h"
 #include "grove/build/octree/update_octree.h"
 #include "grove/lab/octree_links.h"
+#include "grove/lab/regression.h"
 #include "grove/lab/spread.h"
 
 namespace grove {
@@ -89,18 +90,6 @@ class Trials {
   std::vector<std::uint32_t> expected_;
 };
 
-// Solves three linear equations by Cramer's rule.
-glm::dvec3 solve(const glm::dmat3& columns, const glm::dvec3& right) {
-  glm::dvec3 solution;
-  const double determinant = glm::determinant(columns);
-  for (int i = 0; i < 3; ++i) {
-    glm::dmat3 replaced = columns;
-    replaced[i] = right;
-    solution[i] = glm::determinant(replaced) / determinant;
-  }
-  return solution;
-}
-
 }  // namespace
 
 std::vector<OctreeTrial> try_octrees(const GeometryPointer& geometry, std::span<const OctreeContender> contenders,
@@ -157,27 +146,16 @@ OctreeSettings match_leaves(const GeometryPointer& geometry, OctreeSettings sett
 }
 
 Equation5 fit_equation_5(std::span<const OctreeTrial> trials) {
-  glm::dmat3 normal(0.0);
-  glm::dvec3 right(0.0);
-  double mean = 0.0;
+  std::vector<double> causes;
+  std::vector<double> times;
+  causes.reserve(3 * trials.size());
+  times.reserve(trials.size());
   for (const OctreeTrial& trial : trials) {
-    const glm::dvec3 row(1.0, trial.nodes_visited, trial.tests);
-    const double time = spread_of(trial.nanoseconds).median;
-    normal += glm::outerProduct(row, row);
-    right += time * row;
-    mean += time / static_cast<double>(trials.size());
+    causes.insert(causes.end(), {1.0, trial.nodes_visited, trial.tests});
+    times.push_back(spread_of(trial.nanoseconds).median);
   }
-  const glm::dvec3 solution = solve(normal, right);
-  Equation5 fit{solution.x, solution.y, solution.z, 0.0};
-  double left = 0.0;
-  double whole = 0.0;
-  for (const OctreeTrial& trial : trials) {
-    const double time = spread_of(trial.nanoseconds).median;
-    left += (time - fit.predict(trial)) * (time - fit.predict(trial));
-    whole += (time - mean) * (time - mean);
-  }
-  fit.r_squared = whole > 0.0 ? 1.0 - left / whole : 1.0;
-  return fit;
+  const LinearFit fit = fit_linear(causes, 3, times);
+  return {fit.prices[0], fit.prices[1], fit.prices[2], fit.r_squared};
 }
 
 }  // namespace grove

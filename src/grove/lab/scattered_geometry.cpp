@@ -114,4 +114,34 @@ std::vector<Ray> rays_inside(const Box& box, std::size_t count, std::uint64_t se
   return rays;
 }
 
+std::vector<Ray> lines_through(const Box& box, std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  const glm::dvec3 lower(box.lower);
+  const glm::dvec3 upper(box.upper);
+  const double radius = 0.5 * glm::length(upper - lower);
+  std::vector<Ray> rays;
+  rays.reserve(count);
+  while (rays.size() < count) {
+    // Lines of one direction are uniform over a disk across it that covers the box.
+    const glm::dvec3 direction(random_direction(random));
+    const glm::dvec3 aside = std::fabs(direction.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 u = glm::normalize(glm::cross(direction, aside));
+    const glm::dvec3 v = glm::cross(direction, u);
+    const double r = radius * std::sqrt(static_cast<double>(random.next_float()));
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(random.next_float());
+    const glm::dvec3 on_disk = 0.5 * (lower + upper) + r * (std::cos(angle) * u + std::sin(angle) * v);
+    const Ray ray{Vec3(on_disk - 2.0 * radius * direction), 0.0F, Vec3(direction)};
+    double first = 0.0;
+    double last = 4.0 * radius;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double a = (lower[axis] - ray.origin[axis]) / ray.direction[axis];
+      const double b = (upper[axis] - ray.origin[axis]) / ray.direction[axis];
+      first = std::fmax(first, std::fmin(a, b));
+      last = std::fmin(last, std::fmax(a, b));
+    }
+    if (first <= last) rays.push_back(ray);
+  }
+  return rays;
+}
+
 }  // namespace grove

@@ -34,4 +34,8 @@ struct ScatterSettings {
 /// Rays with origins uniform in the box and uniform directions, without end.
 [[nodiscard]] std::vector<Ray> rays_inside(const Box& box, std::size_t count, std::uint64_t seed);
 
+/// Lines that meet the box, distributed uniformly (isotropic and homogeneous: every line as likely as any other), as the surface-area heuristic takes rays to be. They start
+/// outside of it, without end.
+[[nodiscard]] std::vector<Ray> lines_through(const Box& box, std::size_t count, std::uint64_t seed);
+
 }  // namespace grove

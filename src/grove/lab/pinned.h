@@ -4,7 +4,7 @@
 #include <sched.h>
 #endif
 
-namespace grove::bench {
+namespace grove {
 
 /// Keeps the calling thread on one core for as long as it lives.
 class Pinned {
@@ -36,4 +36,4 @@ class Pinned {
 #endif
 };
 
-}  // namespace grove::bench
+}  // namespace grove
