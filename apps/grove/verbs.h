@@ -25,6 +25,7 @@ struct Verb {
 [[nodiscard]] Verb add_compare(CLI::App& program);
 [[nodiscard]] Verb add_animate(CLI::App& program);
 [[nodiscard]] Verb add_inspect(CLI::App& program);
+[[nodiscard]] Verb add_reproduce(CLI::App& program);
 [[nodiscard]] Verb add_structures(CLI::App& program);
 
 }  // namespace grove::app

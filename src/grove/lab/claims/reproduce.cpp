@@ -1,0 +1,76 @@
+#include "grove/lab/claims/reproduce.h"
+
+#include <algorithm>
+
+#include "grove/base/error.h"
+#include "grove/base/timer.h"
+#include "grove/lab/utc_date.h"
+
+namespace grove {
+namespace {
+
+bool is_chosen(const ReproduceSettings& settings, std::string_view id) {
+  return settings.only.empty() || std::ranges::find(settings.only, id) != settings.only.end();
+}
+
+void check_ids(const ReproduceSettings& settings) {
+  for (const std::string& id : settings.only) {
+    if (std::ranges::find(review_claims(), id, &Claim::id) != review_claims().end()) continue;
+    std::string known;
+    for (const Claim& claim : review_claims()) known += (known.empty() ? "" : ", ") + std::string(claim.id);
+    throw UsageError("no claim is called '" + id + "'; the claims are " + known);
+  }
+}
+
+}  // namespace
+
+bool can_resume(const Reproduction& earlier, const ReproduceSettings& settings) {
+  const Machine machine = describe_machine();
+  return !earlier.claims.empty() && earlier.quick == settings.quick && earlier.machine.cpu == machine.cpu &&
+         earlier.machine.threads == machine.threads && earlier.machine.compiler == machine.compiler &&
+         earlier.machine.commit == machine.commit;
+}
+
+Reproduction reproduce(const ReproduceSettings& settings, const Reproduction& earlier, const std::function<void(const Reproduction&)>& save,
+                       const ProgressReporter& progress) {
+  check_ids(settings);
+  Reproduction result;
+  result.machine = describe_machine();
+  result.quick = settings.quick;
+  result.command = earlier.command;
+  const bool resumes = can_resume(earlier, settings);
+  const auto total =
+      static_cast<std::uint64_t>(std::ranges::count_if(review_claims(), [&](const Claim& claim) { return is_chosen(settings, claim.id); }));
+  for (const Claim& claim : review_claims()) {
+    if (!is_chosen(settings, claim.id)) continue;
+    const auto known = std::ranges::find(earlier.claims, claim.id, &CheckedClaim::id);
+    CheckedClaim checked;
+    if (resumes && known != earlier.claims.end() && known->finding) {
+      checked = *known;
+      result.date = earlier.date;
+    } else {
+      if (progress.stop.stop_requested()) return result;
+      checked = {std::string(claim.id), std::string(claim.statement), std::string(claim.source), std::string(claim.method), {}, "", 0.0};
+      const Timer timer;
+      try {
+        checked.finding = claim.check({settings.quick, progress.stop});
+      } catch (const Stopped&) {
+        return result;
+      } catch (const std::bad_alloc&) {
+        checked.error = "out of memory";
+      } catch (const std::exception& error) {
+        checked.error = error.what();
+      }
+      checked.seconds = timer.seconds();
+      result.date = utc_date();
+    }
+    result.seconds += checked.seconds;
+    result.claims.push_back(std::move(checked));
+    result.is_complete = result.claims.size() == total;
+    if (save) save(result);
+    if (progress.report) progress.report(result.claims.size(), total);
+  }
+  return result;
+}
+
+}  // namespace grove

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grove/base/progress.h"
+#include "grove/lab/claims/claim.h"
+#include "grove/lab/machine.h"
+
+namespace grove {
+
+struct ReproduceSettings {
+  bool quick = false;
+  /// Ids of claims; empty: all.
+  std::vector<std::string> only;
+};
+
+/// A claim with what its experiment found; one without a finding has `error`.
+struct CheckedClaim {
+  std::string id;
+  std::string statement;
+  std::string source;
+  std::string method;
+  std::optional<Finding> finding;
+  std::string error;
+  double seconds = 0.0;
+};
+
+struct Reproduction {
+  Machine machine;
+  bool quick = false;
+  std::string command;       ///< that was given; for the reader
+  std::string date;          ///< of the last experiment: ISO 8601, UTC
+  double seconds = 0.0;      ///< of all experiments
+  bool is_complete = false;  ///< whether every claim that was asked for has been checked
+  std::vector<CheckedClaim> claims;
+};
+
+/// Runs the experiments, one claim after the other, in the caller's oneTBB arena. Claims that `earlier` has a finding of are taken from there when it was made with the same
+/// settings on the same machine and by the same commit. `save` is called after each. Progress counts claims; when `progress.stop` asks, returns what is
+/// finished. An experiment that fails becomes a claim with an error. Throws UsageError for an id that no claim has.
+[[nodiscard]] Reproduction reproduce(const ReproduceSettings& settings, const Reproduction& earlier,
+                                     const std::function<void(const Reproduction&)>& save, const ProgressReporter& progress = {});
+
+/// Whether the claims of `earlier` can be taken over.
+[[nodiscard]] bool can_resume(const Reproduction& earlier, const ReproduceSettings& settings);
+
+}  // namespace grove

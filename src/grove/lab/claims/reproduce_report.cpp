@@ -1,0 +1,193 @@
+#include "grove/lab/claims/reproduce_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "grove/base/error.h"
+#include "grove/lab/comparison_report.h"
+#include "grove/lab/text_table.h"
+
+namespace grove {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kVersion = 1;
+constexpr std::string_view kFormat = "grove-reproduce";
+
+Json claim_json(const CheckedClaim& claim) {
+  Json sections = Json::array();
+  for (const ReportSection& section : claim.finding->sections) sections.push_back(section_json(section));
+  return {{"id", claim.id},           {"statement", claim.statement},        {"source", claim.source},
+          {"method", claim.method},   {"measured", claim.finding->measured}, {"verdict", name_of(claim.finding->verdict)},
+          {"seconds", claim.seconds}, {"sections", std::move(sections)}};
+}
+
+Verdict verdict_from(const std::string& name) {
+  for (const Verdict verdict : {Verdict::holds, Verdict::fails, Verdict::mixed}) {
+    if (name_of(verdict) == name) return verdict;
+  }
+  throw InputError("'" + name + "' is no verdict");
+}
+
+CheckedClaim claim_from_json(const Json& json) {
+  CheckedClaim claim{json.at("id"), json.at("statement"), json.at("source"), json.at("method"), Finding(), "", json.at("seconds")};
+  claim.finding->verdict = verdict_from(json.at("verdict"));
+  claim.finding->measured = json.at("measured");
+  for (const Json& section : json.at("sections")) claim.finding->sections.push_back(section_from_json(section));
+  return claim;
+}
+
+Machine machine_from_json(const Json& json) {
+  return {json.at("cpu"), json.at("cores"), json.at("threads"), json.at("compiler"), json.value("commit", ""), json.at("os")};
+}
+
+/// Breaks a text into lines of at most `width` characters, each after `indent` spaces.
+std::string wrap(const std::string& text, std::size_t width, std::size_t indent) {
+  std::string result;
+  std::size_t column = width;
+  std::size_t start = 0;
+  while (start < text.size()) {
+    const std::size_t end = std::min(text.find(' ', start), text.size());
+    const std::string word = text.substr(start, end - start);
+    if (column + 1 + word.size() > width) {
+      result += (result.empty() ? "" : "\n") + std::string(indent, ' ') + word;
+      column = indent + word.size();
+    } else {
+      result += ' ' + word;
+      column += 1 + word.size();
+    }
+    start = end + 1;
+  }
+  return result;
+}
+
+std::size_t count_of(const Reproduction& reproduction, Verdict verdict) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      reproduction.claims, [&](const CheckedClaim& claim) { return claim.finding && claim.finding->verdict == verdict; }));
+}
+
+std::string tally(const Reproduction& reproduction) {
+  const auto failed =
+      static_cast<std::size_t>(std::ranges::count_if(reproduction.claims, [](const CheckedClaim& claim) { return !claim.finding; }));
+  std::string text =
+      fmt::format("{} claims: {} hold, {} are mixed, {} fail", reproduction.claims.size(), count_of(reproduction, Verdict::holds),
+                  count_of(reproduction, Verdict::mixed), count_of(reproduction, Verdict::fails));
+  if (failed > 0) text += fmt::format("; {} could not be checked", failed);
+  return text;
+}
+
+/// The review's sections that have claims.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kSections{{{"III.A", "Octrees"},
+                                                                                  {"III.B", "Kd-trees"},
+                                                                                  {"III.C", "Bounding volume hierarchies"},
+                                                                                  {"IV.A", "Parallel construction"},
+                                                                                  {"IV.B", "Octree-R and the cost models"}}};
+
+/// A text in one paragraph of Markdown, in which nothing is markup.
+std::string plain(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '*' || c == '_' || c == '<' || c == '|' ? std::string("\\") + c : std::string(1, c);
+  return result;
+}
+
+std::string conclusions(const Reproduction& reproduction) {
+  std::string text;
+  for (const auto& [section, title] : kSections) {
+    std::string items;
+    for (const CheckedClaim& claim : reproduction.claims) {
+      if (!claim.source.starts_with(section) || !claim.finding) continue;
+      items += fmt::format("- **{}** ({}) {} {}\n", plain(claim.statement), name_of(claim.finding->verdict), plain(claim.finding->measured),
+                           fmt::format("[figures](#{})", claim.id));
+    }
+    if (!items.empty()) text += fmt::format("### {}: {}\n\n{}\n", section, title, items);
+  }
+  return text;
+}
+
+}  // namespace
+
+Json reproduction_json(const Reproduction& reproduction) {
+  Json claims = Json::array();
+  Json failed = Json::array();
+  for (const CheckedClaim& claim : reproduction.claims) {
+    if (claim.finding) {
+      claims.push_back(claim_json(claim));
+    } else {
+      failed.push_back({{"id", claim.id}, {"error", claim.error}});
+    }
+  }
+  Json json{{"format", kFormat},
+            {"version", kVersion},
+            {"machine", machine_json(reproduction.machine)},
+            {"command", reproduction.command},
+            {"date", reproduction.date},
+            {"quick", reproduction.quick},
+            {"seconds", reproduction.seconds},
+            {"complete", reproduction.is_complete},
+            {"claims", std::move(claims)}};
+  if (!failed.empty()) json["failed"] = std::move(failed);
+  return json;
+}
+
+Reproduction reproduction_from_json(const Json& json, const std::string& file) {
+  try {
+    if (json.at("format") != kFormat || json.at("version") != kVersion)
+      throw InputError(file, "", "no results of grove reproduce; name another file");
+    Reproduction reproduction{machine_from_json(json.at("machine")),
+                              json.at("quick"),
+                              json.at("command"),
+                              json.at("date"),
+                              json.at("seconds"),
+                              json.at("complete"),
+                              {}};
+    for (const Json& claim : json.at("claims")) reproduction.claims.push_back(claim_from_json(claim));
+    return reproduction;
+  } catch (const nlohmann::json::exception&) {
+    throw InputError(file, "", "no results of grove reproduce; name another file, or delete this one");
+  }
+}
+
+std::string reproduction_text(const Reproduction& reproduction) {
+  constexpr std::size_t kWidth = 120;
+  constexpr std::size_t kIndent = 8;
+  std::string text;
+  for (const CheckedClaim& claim : reproduction.claims) {
+    const std::string verdict = claim.finding ? std::string(name_of(claim.finding->verdict)) : "failed";
+    text += fmt::format("{:<8}{} ({}, {})\n{}\n{}\n\n", verdict, claim.id, claim.source, duration(claim.seconds),
+                        wrap(claim.statement, kWidth, kIndent),
+                        wrap(claim.finding ? "→ " + claim.finding->measured : "→ " + claim.error, kWidth, kIndent));
+  }
+  return text + tally(reproduction) + '\n';
+}
+
+std::string reproduction_markdown(const Reproduction& reproduction) {
+  std::string text = fmt::format(
+      "# The review's claims, measured\n\nWritten by `{}` on {}: {}, {} threads, {}{}. The {}experiments took {}.\n\n{}.\n\n"
+      "`holds`: true as stated in all cases that were measured; `fails`: in none; `mixed`: in some, or in part. What counts is said with "
+      "each experiment.\n\n",
+      reproduction.command, reproduction.date.substr(0, 10), reproduction.machine.cpu, reproduction.machine.threads,
+      reproduction.machine.compiler, reproduction.machine.commit.empty() ? "" : ", commit " + reproduction.machine.commit.substr(0, 12),
+      reproduction.quick ? "quick " : "", duration(reproduction.seconds), tally(reproduction));
+  text += "## What the review says, and what was found\n\n" + conclusions(reproduction) + "## The experiments\n\n";
+  for (const CheckedClaim& claim : reproduction.claims) {
+    text += fmt::format("### {}\n\n", claim.id);
+    if (!claim.finding) {
+      text += fmt::format("Could not be checked: {}\n\n", plain(claim.error));
+      continue;
+    }
+    text += fmt::format("{} ({})\n\n{}\n\n**{}**: {}\n\n", plain(claim.statement), claim.source, plain(claim.method),
+                        name_of(claim.finding->verdict), plain(claim.finding->measured));
+    for (const ReportSection& section : claim.finding->sections) {
+      // A plot alone repeats what is in a table above it.
+      if (section.table) text += section_markdown(section, 4);
+    }
+  }
+  while (text.ends_with("\n\n")) text.pop_back();
+  return text;
+}
+
+}  // namespace grove

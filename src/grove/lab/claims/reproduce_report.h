@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "grove/lab/claims/reproduce.h"
+
+namespace grove {
+
+/// The shape is in docs/command-line.md. Claims without a verdict are under `failed`.
+[[nodiscard]] nlohmann::ordered_json reproduction_json(const Reproduction& reproduction);
+/// Back from the same shape, to go on from. `file` names it in messages. Throws InputError where it is another one.
+[[nodiscard]] Reproduction reproduction_from_json(const nlohmann::ordered_json& json, const std::string& file);
+
+/// For the terminal: a paragraph for each claim, and a count of the verdicts.
+[[nodiscard]] std::string reproduction_text(const Reproduction& reproduction);
+
+/// A document: what was found by section of the review, a table of all verdicts, then each experiment with its figures.
+[[nodiscard]] std::string reproduction_markdown(const Reproduction& reproduction);
+
+}  // namespace grove
