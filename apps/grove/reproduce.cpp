@@ -9,6 +9,7 @@
 #include "grove/base/output_file.h"
 #include "grove/lab/claims/reproduce_report.h"
 #include "grove/lab/text_table.h"
+#include "html_file.h"
 #include "progress_bar.h"
 #include "session.h"
 #include "verbs.h"
@@ -56,6 +57,7 @@ int run(ReproduceOptions& options, Interrupts& interrupts) {
   if (options.json.empty()) options.json = options.settings.quick ? "reproduce-quick.json" : "reproduce.json";
   check_writable(options.json);
   if (!options.markdown.empty()) check_writable(options.markdown);
+  check_html(options, PageKind::report);
   Reproduction earlier = read_earlier(options, console);
   earlier.command = fmt::format("grove reproduce{}", options.settings.quick ? " --quick" : "");
 
@@ -72,6 +74,7 @@ int run(ReproduceOptions& options, Interrupts& interrupts) {
   const Interrupts::Graceful graceful(interrupts);
   fmt::print("{}", reproduction_text(reproduction));
   if (!options.markdown.empty()) write_text_file(options.markdown, reproduction_markdown(reproduction));
+  write_html(options, PageKind::report, "The review's claims, measured", reproduction_json(reproduction));
   console.say(fmt::format("results are in {}", options.json.string()));
   const auto failed = std::ranges::count_if(reproduction.claims, [](const CheckedClaim& claim) { return !claim.finding; });
   std::fflush(stdout);
@@ -97,6 +100,7 @@ Verb add_reproduce(CLI::App& program) {
   add_json(verb, *options,
            "claims, verdicts and figures; an interrupted run goes on from it (default: reproduce.json, with --quick reproduce-quick.json)");
   verb.add_option("--markdown", options->markdown, "Write the findings to this file as a document")->type_name("FILE");
+  add_html(verb, *options, "claims, verdicts and figures");
   add_quiet(verb, *options);
   verb.footer(
       "Each claim is held against counts and times on generated scenes; structures take turns, round by round, and all hits are compared. "
@@ -105,7 +109,7 @@ Verb add_reproduce(CLI::App& program) {
       "Examples:\n"
       "  grove reproduce --quick\n"
       "  grove reproduce --only octree-r-gain,octree-r-candidates\n"
-      "  grove reproduce --markdown findings.md");
+      "  grove reproduce --markdown findings.md --html findings.html");
   return {&verb, [options](Interrupts& interrupts) { return with_threads(options->threads, [&] { return run(*options, interrupts); }); }};
 }
 
