@@ -30,12 +30,12 @@ export function header(report: Report, kind: string, title: string, lead: Child[
 }
 
 /** A part of the page with a heading that can be linked to. */
-export function part(id: string, title: string, lead: Child | Child[], ...children: Child[]): HTMLElement {
+export function part(id: string, title: string, lead: Child | Child[], ...children: (Child | Child[])[]): HTMLElement {
   return h(
     "section",
     { id, "aria-labelledby": `${id}-title` },
     h("h2", { id: `${id}-title` }, title),
     lead ? h("p", { class: "lead" }, lead) : null,
-    children,
+    ...children,
   );
 }

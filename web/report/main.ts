@@ -2,8 +2,10 @@ import "../shared/base.css";
 import "./report.css";
 import { readData } from "../shared/data";
 import { h } from "../shared/dom";
+import { comparePage } from "./compare/compare";
 import { reproducePage } from "./reproduce/reproduce";
-import type { Report, ReproduceReport } from "./types";
+import { scalePage } from "./scale/scale";
+import type { CompareReport, Report, ReproduceReport, ScaleReport } from "./types";
 
 /** The newest version of the formats that this page knows. */
 const knownVersion = 1;
@@ -15,6 +17,10 @@ function pageOf(data: unknown): HTMLElement {
   switch (report.format) {
     case "grove-reproduce":
       return reproducePage(report as ReproduceReport);
+    case "grove-compare":
+      return comparePage(report as CompareReport);
+    case "grove-scale":
+      return scalePage(report as ScaleReport);
     default:
       return apology(`These results are of a format that this page does not know: ${report.format ?? "none is named"}.`);
   }

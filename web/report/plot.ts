@@ -110,7 +110,7 @@ function optionOf(plot: Plot, theme: Theme, width: number): EChartsOption {
       bottom: down ? 26 : plot.x.label ? 26 : 6,
       containLabel: true,
     },
-    tooltip: { ...tooltip(theme), ...hint(plot) },
+    tooltip: tooltip(theme, hint(plot)),
     xAxis: down ? { ...figures, nameGap: 26 } : base,
     yAxis: down ? base : figures,
     series,

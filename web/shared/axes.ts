@@ -42,8 +42,8 @@ export function axis(theme: Theme, settings: AxisSettings): Record<string, unkno
     name: label,
     // That of the upright axis stands above it, to be read without turning the head.
     nameLocation: vertical ? ("end" as const) : ("middle" as const),
-    nameTextStyle: { color: theme.muted, fontSize: 12, ...(vertical ? { align: "left" as const, padding: [0, 0, 0, -34] } : {}) },
-    nameGap: vertical ? 12 : 28,
+    nameTextStyle: { color: theme.muted, fontSize: 12, ...(vertical ? { align: "left" as const, padding: [0, 0, 0, -16] } : {}) },
+    nameGap: vertical ? 14 : 28,
     axisLine: { show: !vertical, lineStyle: { color: theme.line } },
     axisTick: { show: false },
     splitLine: { show: true, lineStyle: { color: theme.line, opacity: 0.6 } },
@@ -115,9 +115,10 @@ export function legend(theme: Theme, names: string[], width: number): { option: 
   };
 }
 
-/** How a hint looks that appears where a chart is pointed at. */
-export function tooltip(theme: Theme): Record<string, unknown> {
+/** The hint that appears where a chart is pointed at: what of ECharts' settings, in the looks of the page. */
+export function tooltip(theme: Theme, settings: Record<string, unknown>): Record<string, unknown> {
   return {
+    ...settings,
     confine: true,
     backgroundColor: theme.surface,
     borderColor: theme.line,

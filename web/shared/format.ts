@@ -24,9 +24,10 @@ export function count(value: number | null | undefined): string {
   return value === null || value === undefined ? missing : signed(Math.round(value).toLocaleString("en-US"));
 }
 
-/** For axes: 1k, 2.5M, 10G; small numbers as they are. */
+/** For axes and where room is scarce: 1,024, 25k, 2.5M, 10G; small numbers as they are. */
 export function compact(value: number): string {
   const size = Math.abs(value);
+  if (size >= 1000 && size < 10000) return count(value);
   for (const [unit, factor] of [
     ["G", 1e9],
     ["M", 1e6],
@@ -61,6 +62,16 @@ export function duration(seconds: number | null | undefined): string {
   if (seconds >= 1e-3) return number(seconds * 1e3) + thin + "ms";
   if (seconds >= 1e-6) return number(seconds * 1e6) + thin + "µs";
   return number(seconds * 1e9) + thin + "ns";
+}
+
+/** Bytes for axes: without digits that say nothing. */
+export function bytesTick(value: number): string {
+  return bytes(value).replace(/\.0+(?=\u202f)/, "");
+}
+
+/** Seconds for axes whose ticks are decades: never minutes or hours, and without digits that say nothing. */
+export function secondsTick(value: number): string {
+  return value >= 1 ? count(value) + thin + "s" : duration(value).replace(/\.0+(?=\u202f)/, "");
 }
 
 /** A date of ISO 8601 as people write it, in UTC. */
