@@ -64,8 +64,13 @@ export function duration(seconds: number | null | undefined): string {
   return number(seconds * 1e9) + thin + "ns";
 }
 
-/** Bytes for axes: without digits that say nothing. */
+/** Bytes for axes, without digits that say nothing: powers of ten in kB, MB and GB, else as `bytes`. */
 export function bytesTick(value: number): string {
+  const decade = Math.log10(value);
+  if (value >= 1000 && Math.abs(decade - Math.round(decade)) < 1e-6) {
+    const thousands = Math.min(4, Math.floor(Math.round(decade) / 3));
+    return `${Math.round(value / 1000 ** thousands)}${thin}${["B", "kB", "MB", "GB", "TB"][thousands]}`;
+  }
   return bytes(value).replace(/\.0+(?=\u202f)/, "");
 }
 

@@ -12,6 +12,8 @@ export interface Column<Row> {
   /** Whether small is good: the way of the first click. */
   ascending?: boolean;
   numeric?: boolean;
+  /** Left out on paper, which is narrower. */
+  minor?: boolean;
 }
 
 export interface Table<Row> {
@@ -37,7 +39,7 @@ export function sortableTable<Row>(columns: Column<Row>[], rows: Row[], settings
     ),
   );
   const heads = columns.map((column, index) =>
-    h("th", { scope: "col", class: column.numeric && index > 0 ? "numeric" : undefined }, buttons[index] ?? null),
+    h("th", { scope: "col", class: classOf(column, index) }, buttons[index] ?? null),
   );
   const body = h("tbody");
   const caption = h("caption", {}, settings.caption);
@@ -74,7 +76,7 @@ export function sortableTable<Row>(columns: Column<Row>[], rows: Row[], settings
           columns.map((one, index) =>
             index === 0
               ? h("th", { scope: "row" }, one.cell(row))
-              : h("td", { class: one.numeric ? "numeric" : undefined }, one.cell(row)),
+              : h("td", { class: classOf(one, index) }, one.cell(row)),
           ),
         ),
       ),
@@ -89,6 +91,10 @@ export function sortableTable<Row>(columns: Column<Row>[], rows: Row[], settings
       fill();
     },
   };
+}
+
+function classOf<Row>(column: Column<Row>, index: number): string | undefined {
+  return [column.numeric && index > 0 && "numeric", column.minor && "screen-only"].filter(Boolean).join(" ") || undefined;
 }
 
 function compare(a: number | string | null, b: number | string | null, sign: number): number {

@@ -41,6 +41,8 @@ export function onPrint(before: () => void, after: () => void): void {
   const set = (value: boolean) => {
     if (value === printing) return;
     printing = value;
+    // The style sheet's rules for print do not hold yet when charts must be drawn for it.
+    document.documentElement.classList.toggle("paper", printing);
     (printing ? before : after)();
   };
   window.addEventListener("beforeprint", () => set(true));

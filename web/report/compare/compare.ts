@@ -48,7 +48,7 @@ export function comparePage(report: CompareReport): HTMLElement {
     failuresPart(report),
     controlBar(view),
     part("speed", "Speed", ["Millions of ", kindOfRays, " rays a second: the median over the rounds, and from the least to the most."], speedChart(view).element),
-    part("figures", "All figures", "Sort by any column; it scrolls sideways.", rowsTable(view)),
+    part("figures", "All figures", h("span", { class: "screen-only" }, "Sort by any column; it scrolls sideways."), rowsTable(view)),
     part(
       "memory",
       "Memory against speed",

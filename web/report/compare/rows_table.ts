@@ -48,22 +48,26 @@ function allColumns(fastest: () => number): Column<Row>[] {
       cell: (row) => number(row.ratio_to_first?.median),
     },
     figure("Nodes/ray", "Nodes visited, a ray", (row) => row.nodes_per_ray, number),
-    figure("95 %", "Nodes visited by the ray that 95 of 100 do not exceed", (row) => row.work?.nodes?.p95, number),
+    minor(figure("95 %", "Nodes visited by the ray that 95 of 100 do not exceed", (row) => row.work?.nodes?.p95, number)),
     figure("Tests/ray", "Primitives tested, a ray", (row) => row.tests_per_ray, number),
-    figure("95 %", "Primitives tested by the ray that 95 of 100 do not exceed", (row) => row.work?.tests?.p95, number),
+    minor(figure("95 %", "Primitives tested by the ray that 95 of 100 do not exceed", (row) => row.work?.tests?.p95, number)),
     figure("Build", "Wall clock, all threads: the median", (row) => row.build_seconds?.median, duration),
     figure("Build, 1 thread", "Wall clock, one thread: the median", (row) => row.build_seconds_one_thread?.median, duration),
     figure("Memory", "Of the structure, without the geometry", (row) => row.bytes, bytes),
-    figure("References", "Primitives as leaves hold them", (row) => row.references, count),
+    minor(figure("References", "Primitives as leaves hold them", (row) => row.references, count)),
     figure("Duplication", "References a primitive", (row) => row.duplication, number),
-    figure("Nodes", "", (row) => row.nodes, count),
-    figure("Leaves", "", (row) => row.leaves, count),
-    figure("Depth", "", (row) => row.depth, count),
+    minor(figure("Nodes", "", (row) => row.nodes, count)),
+    minor(figure("Leaves", "", (row) => row.leaves, count)),
+    minor(figure("Depth", "", (row) => row.depth, count)),
     figure("Cost", "Surface-area cost of a ray that meets the root", (row) => row.expected_cost, number),
-    figure("EPO", "End-point overlap: the time a ray spends in vain round its end", (row) => row.end_point_overlap, number),
-    figure("Overlap", "Chance that a ray must enter both children", (row) => row.sibling_overlap, number),
-    figure("Wrong hits", "Rays whose hit is not, bit for bit, the reference's", (row) => row.mismatches, count),
+    minor(figure("EPO", "End-point overlap: the time a ray spends in vain round its end", (row) => row.end_point_overlap, number)),
+    minor(figure("Overlap", "Chance that a ray must enter both children", (row) => row.sibling_overlap, number)),
+    minor(figure("Wrong hits", "Rays whose hit is not, bit for bit, the reference's", (row) => row.mismatches, count)),
   ];
+}
+
+function minor(column: Column<Row>): Column<Row> {
+  return { ...column, minor: true };
 }
 
 function figure(

@@ -185,7 +185,7 @@ function fitsTable(fits: FitRow[]): HTMLElement {
       numeric: true,
       ascending: true,
       value: (row) => fit(row)?.exponent ?? null,
-      cell: (row) => (fit(row) ? h("b", {}, `n^${number(fit(row)?.exponent)}`) : missing),
+      cell: (row) => (fit(row) ? h("b", {}, "n", h("sup", {}, (fit(row)?.exponent ?? 0).toFixed(2))) : missing),
     },
     {
       title: "R²",
