@@ -9,7 +9,6 @@
 #include "grove/base/output_file.h"
 #include "grove/lab/claims/reproduce_report.h"
 #include "grove/lab/text_table.h"
-#include "progress_bar.h"
 #include "session.h"
 #include "verbs.h"
 
@@ -59,18 +58,20 @@ int run(ReproduceOptions& options, Interrupts& interrupts) {
   Reproduction earlier = read_earlier(options, console);
   earlier.command = fmt::format("grove reproduce{}", options.settings.quick ? " --quick" : "");
 
-  Reproduction reproduction;
-  {
-    ProgressBar bar("checking", "claims", 1.0, options.quiet);
-    const auto save = [&](const Reproduction& so_far) {
-      // A claim that is finished is not lost to a signal while it is written.
-      const Interrupts::Graceful graceful(interrupts);
-      write_text_file(options.json, reproduction_json(so_far).dump(1) + "\n");
-    };
-    reproduction = reproduce(options.settings, earlier, save, bar.reporter(interrupts.token()));
-  }
+  const ReproduceObserver observer{[&](const Claim& claim, std::size_t number, std::size_t total) {
+                                     console.status(fmt::format("{} of {}: {}", number, total, claim.id));
+                                   },
+                                   [&](const Reproduction& so_far) {
+                                     write_text_file(options.json, reproduction_json(so_far).dump(1) + "\n");
+                                     console.clear_status();
+                                     fmt::print("{}\n", claim_text(so_far.claims.back()));
+                                     std::fflush(stdout);
+                                   }};
+  // The first signal stops the experiment under way; what is finished is kept.
   const Interrupts::Graceful graceful(interrupts);
-  fmt::print("{}", reproduction_text(reproduction));
+  const Reproduction reproduction = reproduce(options.settings, earlier, observer, interrupts.token());
+  console.clear_status();
+  fmt::print("{}\n", tally_text(reproduction));
   if (!options.markdown.empty()) write_text_file(options.markdown, reproduction_markdown(reproduction));
   console.say(fmt::format("results are in {}", options.json.string()));
   const auto failed = std::ranges::count_if(reproduction.claims, [](const CheckedClaim& claim) { return !claim.finding; });

@@ -12,8 +12,11 @@ namespace grove {
 /// Back from the same shape, to go on from. `file` names it in messages. Throws InputError where it is another one.
 [[nodiscard]] Reproduction reproduction_from_json(const nlohmann::ordered_json& json, const std::string& file);
 
-/// For the terminal: a paragraph for each claim, and a count of the verdicts.
-[[nodiscard]] std::string reproduction_text(const Reproduction& reproduction);
+/// For the terminal: verdict, statement and what was measured, with a newline at the end.
+[[nodiscard]] std::string claim_text(const CheckedClaim& claim);
+
+/// "26 claims: 12 hold, …"
+[[nodiscard]] std::string tally_text(const Reproduction& reproduction);
 
 /// A document: what was found by section of the review, a table of all verdicts, then each experiment with its figures.
 [[nodiscard]] std::string reproduction_markdown(const Reproduction& reproduction);
