@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,12 @@ int list_claims() {
     table.add_row({std::string(claim.id), std::string(claim.source), std::string(claim.statement)});
   fmt::print("{}", table.text());
   return 0;
+}
+
+/// Empty where there is no such file.
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// What an earlier run left in the file, as far as this one can go on from it.
@@ -72,7 +79,10 @@ int run(ReproduceOptions& options, Interrupts& interrupts) {
   const Reproduction reproduction = reproduce(options.settings, earlier, observer, interrupts.token());
   console.clear_status();
   fmt::print("{}\n", tally_text(reproduction));
-  if (!options.markdown.empty()) write_text_file(options.markdown, reproduction_markdown(reproduction));
+  if (!options.markdown.empty()) {
+    const std::string earlier_text = read_text(options.markdown);
+    write_text_file(options.markdown, replace_generated(earlier_text, reproduction_markdown(reproduction)));
+  }
   console.say(fmt::format("results are in {}", options.json.string()));
   const auto failed = std::ranges::count_if(reproduction.claims, [](const CheckedClaim& claim) { return !claim.finding; });
   std::fflush(stdout);
@@ -97,7 +107,7 @@ Verb add_reproduce(CLI::App& program) {
   add_threads(verb, *options);
   add_json(verb, *options,
            "claims, verdicts and figures; an interrupted run goes on from it (default: reproduce.json, with --quick reproduce-quick.json)");
-  verb.add_option("--markdown", options->markdown, "Write the findings to this file as a document")->type_name("FILE");
+  verb.add_option("--markdown", options->markdown, "Write the findings to this file as a document; what is written by hand outside of its marks stays")->type_name("FILE");
   add_quiet(verb, *options);
   verb.footer(
       "Each claim is held against counts and times on generated scenes; structures take turns, round by round, and all hits are compared. "

@@ -114,5 +114,17 @@ TEST(ReproduceReport, IsTextAndADocument) {
   EXPECT_THAT(document, HasSubstr("Could not be checked: out of memory"));
 }
 
+TEST(ReproduceReport, KeepsWhatIsWrittenByHand) {
+  const std::string document = reproduction_markdown(small_reproduction());
+  Reproduction later = small_reproduction();
+  later.claims.pop_back();
+  const std::string after = replace_generated("By hand.\n" + document + "By hand, too.\n", reproduction_markdown(later));
+  EXPECT_TRUE(after.starts_with("By hand.\n# The review"));
+  EXPECT_TRUE(after.ends_with("By hand, too.\n"));
+  EXPECT_THAT(after, ::testing::Not(HasSubstr("out of memory")));
+  EXPECT_THAT(after, HasSubstr("### one\n"));
+  EXPECT_EQ(replace_generated("Another text.", document), document);
+}
+
 }  // namespace
 }  // namespace grove

@@ -17,6 +17,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
 constexpr std::string_view kFormat = "grove-reproduce";
+constexpr std::string_view kGeneratedBegins = "<!-- grove reproduce writes from here -->\n";
+constexpr std::string_view kGeneratedEnds = "<!-- to here -->\n";
 
 Json claim_json(const CheckedClaim& claim) {
   Json sections = Json::array();
@@ -166,10 +168,10 @@ std::string claim_text(const CheckedClaim& claim) {
 
 std::string reproduction_markdown(const Reproduction& reproduction) {
   std::string text = fmt::format(
-      "# The review's claims, measured\n\nWritten by `{}` on {}: {}, {} threads, {}{}. The {}experiments took {}.\n\n{}.\n\n"
+      "# The review's claims, measured\n\n{}\nWritten by `{}` on {}: {}, {} threads, {}{}. The {}experiments took {}.\n\n{}.\n\n"
       "`holds`: true as stated in all cases that were measured; `fails`: in none; `mixed`: in some, or in part. What counts is said with "
       "each experiment.\n\n",
-      reproduction.command, reproduction.date.substr(0, 10), reproduction.machine.cpu, reproduction.machine.threads,
+      kGeneratedBegins, reproduction.command, reproduction.date.substr(0, 10), reproduction.machine.cpu, reproduction.machine.threads,
       reproduction.machine.compiler, reproduction.machine.commit.empty() ? "" : ", commit " + reproduction.machine.commit.substr(0, 12),
       reproduction.quick ? "quick " : "", duration(reproduction.seconds), tally_text(reproduction));
   text += "## What the review says, and what was found\n\n" + conclusions(reproduction) + "## The experiments\n\n";
@@ -187,8 +189,15 @@ std::string reproduction_markdown(const Reproduction& reproduction) {
       if (section.table) text += section_markdown(section, 4);
     }
   }
-  while (text.ends_with("\n\n")) text.pop_back();
-  return text;
+  return text + std::string(kGeneratedEnds);
+}
+
+std::string replace_generated(std::string_view document, const std::string& generated) {
+  const std::size_t begin = document.find(kGeneratedBegins);
+  const std::size_t end = document.find(kGeneratedEnds, begin == std::string_view::npos ? 0 : begin);
+  if (begin == std::string_view::npos || end == std::string_view::npos) return generated;
+  return std::string(document.substr(0, begin)) + generated.substr(generated.find(kGeneratedBegins)) +
+         std::string(document.substr(end + kGeneratedEnds.size()));
 }
 
 }  // namespace grove

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 #include "grove/lab/claims/reproduce.h"
 
@@ -18,7 +19,11 @@ namespace grove {
 /// "26 claims: 12 hold, …"
 [[nodiscard]] std::string tally_text(const Reproduction& reproduction);
 
-/// A document: what was found by section of the review, a table of all verdicts, then each experiment with its figures.
+/// A document: what was found by section of the review, then each experiment with its figures. It stands between two lines that mark it as generated.
 [[nodiscard]] std::string reproduction_markdown(const Reproduction& reproduction);
+
+/// `document` with what stands between the marks in it replaced by `generated`, which has them too; what is written by hand around them stays.
+/// Only `generated` where the document has no marks.
+[[nodiscard]] std::string replace_generated(std::string_view document, const std::string& generated);
 
 }  // namespace grove
