@@ -120,6 +120,8 @@ export interface Claim {
   source: string;
   method: string;
   measured: string;
+  /** What explains it, by counts. */
+  why?: string;
   verdict: "holds" | "fails" | "mixed";
   seconds?: number;
   sections?: Section[];

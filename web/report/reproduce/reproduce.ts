@@ -147,6 +147,7 @@ function claimCard(claim: Claim): HTMLElement {
       { class: "claim-text" },
       h("h3", { id: `${claim.id}-statement` }, claim.statement),
       h("p", { class: "measured" }, claim.measured),
+      claim.why && h("p", { class: "why" }, h("b", {}, "Why: "), claim.why),
       h("details", { class: "method" }, h("summary", {}, "How it was measured"), h("p", {}, claim.method)),
     ),
     h(
