@@ -123,8 +123,11 @@ function seriesOf(plot: Plot, one: Series, index: number, color: string, ink: st
   const symbol = symbols[index % symbols.length] ?? "circle";
   const marks: SeriesOption[] = [];
   if (plot.kind === "bar") marks.push({ type: "bar", name: one.name, data, color, barGap, barCategoryGap, barMaxWidth });
-  else if (plot.kind === "scatter") marks.push({ type: "scatter", name: one.name, data, color, symbol, symbolSize: 8 });
-  else {
+  else if (plot.kind === "scatter") {
+    // Many marks lie on each other: smaller ones can still be told apart.
+    const many = plot.series.reduce((sum, each) => sum + each.points.length, 0) > 120;
+    marks.push({ type: "scatter", name: one.name, data, color, symbol, symbolSize: many ? 6 : 9, itemStyle: { opacity: many ? 0.65 : 0.85 } });
+  } else {
     const sorted = [...data].sort((a, b) => (a[0] ?? 0) - (b[0] ?? 0));
     const type = dashes[Math.floor(index / symbols.length) % dashes.length] ?? "solid";
     marks.push({
