@@ -126,7 +126,15 @@ function seriesOf(plot: Plot, one: Series, index: number, color: string, ink: st
   else if (plot.kind === "scatter") {
     // Many marks lie on each other: smaller ones can still be told apart.
     const many = plot.series.reduce((sum, each) => sum + each.points.length, 0) > 120;
-    marks.push({ type: "scatter", name: one.name, data, color, symbol, symbolSize: many ? 6 : 9, itemStyle: { opacity: many ? 0.65 : 0.85 } });
+    marks.push({
+      type: "scatter",
+      name: one.name,
+      data,
+      color,
+      symbol,
+      symbolSize: many ? 6 : 9,
+      itemStyle: { opacity: many ? 0.65 : 0.85 },
+    });
   } else {
     const sorted = [...data].sort((a, b) => (a[0] ?? 0) - (b[0] ?? 0));
     const type = dashes[Math.floor(index / symbols.length) % dashes.length] ?? "solid";
@@ -221,4 +229,3 @@ function spreadOf(plot: Plot, item: Hovered): string {
   const text = `<b>${number(point?.[1])}</b>`;
   return point && typeof point[2] === "number" ? `${text} (${number(point[2])}–${number(point[3])})` : text;
 }
-

@@ -70,6 +70,8 @@ export interface Row {
   tests_per_ray?: number | null;
   build_seconds?: Spread | null;
   build_seconds_one_thread?: Spread | null;
+  /** Following moved vertices: by a refit, or by building anew where there is none. */
+  update?: { method: string; seconds: number } | null;
   bytes?: number | null;
   expected_cost?: number | null;
   end_point_overlap?: number | null;
@@ -104,6 +106,7 @@ export interface CompareReport extends Report {
   primitives?: number;
   ray_count?: number;
   rounds?: number;
+  complete?: boolean;
   rows: Row[];
   notes?: string[];
   break_even?: BreakEven[];

@@ -80,7 +80,10 @@ describe("grove reproduce --html", { skip: !browser }, () => {
     const values = async () => (await card.locator(`tbody tr > :nth-child(${depth + 1})`).allTextContents()).map(Number);
     await card.locator("thead th").nth(depth).locator("button").click();
     const once = await values();
-    assert.deepEqual(once, [...once].sort((a, b) => b - a));
+    assert.deepEqual(
+      once,
+      [...once].sort((a, b) => b - a),
+    );
     assert.ok(new Set(once).size > 1);
     await card.locator("thead th").nth(depth).locator("button").click();
     assert.deepEqual(await values(), [...once].reverse());
@@ -88,7 +91,11 @@ describe("grove reproduce --html", { skip: !browser }, () => {
   });
 
   test("fits a phone", async () => {
-    const { page, problems, close } = await openPage(browser, pageWith("report", "Claims", report), { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
+    const { page, problems, close } = await openPage(browser, pageWith("report", "Claims", report), {
+      viewport: { width: 390, height: 844 },
+      isMobile: true,
+      hasTouch: true,
+    });
     await scrollThrough(page);
     assert.equal(await overflow(page), 0);
     await page.locator(".figures details summary").first().click();

@@ -23,7 +23,10 @@ describe("growth", { skip: !browser }, () => {
   });
 
   test("fits a phone", async () => {
-    const { page, problems, close } = await openPage(browser, pageWith("report", "Growth", scaleReport()), { viewport: { width: 390, height: 844 }, isMobile: true });
+    const { page, problems, close } = await openPage(browser, pageWith("report", "Growth", scaleReport()), {
+      viewport: { width: 390, height: 844 },
+      isMobile: true,
+    });
     await scrollThrough(page);
     assert.equal(await overflow(page), 0);
     await screenshot(page, "scale-phone");

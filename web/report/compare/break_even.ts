@@ -35,7 +35,13 @@ export function breakEvenFigure(view: View): HTMLElement | null {
   }
   const list = h("ol", { class: "best-from" });
   const none = h("p", { class: "lead" }, "There are no such figures for these rays.");
-  const figure = h("div", {}, list, h("div", { class: "segments screen-only", role: "group", "aria-label": "What the chart shows" }, scales), made.element);
+  const figure = h(
+    "div",
+    {},
+    list,
+    h("div", { class: "segments screen-only", role: "group", "aria-label": "What the chart shows" }, scales),
+    made.element,
+  );
   const update = () => {
     const data = current();
     list.replaceChildren(...(data ? bestList(data) : []));

@@ -23,8 +23,18 @@ export function controlBar(view: View): HTMLElement {
   return h(
     "div",
     { class: "bar controls screen-only" },
-    h("div", { class: "control" }, h("span", { class: "control-name" }, "Rays"), h("div", { class: "segments", role: "group", "aria-label": "Kind of rays" }, kinds)),
-    h("div", { class: "control" }, h("span", { class: "control-name" }, "Show"), h("div", { class: "chips", role: "group", "aria-label": "Families of structures" }, families)),
+    h(
+      "div",
+      { class: "control" },
+      h("span", { class: "control-name" }, "Rays"),
+      h("div", { class: "segments", role: "group", "aria-label": "Kind of rays" }, kinds),
+    ),
+    h(
+      "div",
+      { class: "control" },
+      h("span", { class: "control-name" }, "Show"),
+      h("div", { class: "chips", role: "group", "aria-label": "Families of structures" }, families),
+    ),
   );
 }
 

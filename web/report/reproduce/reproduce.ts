@@ -25,11 +25,18 @@ export function reproducePage(report: ReproduceReport): HTMLElement {
   return h(
     "main",
     { class: "reproduce" },
-    header(report, "grove reproduce", "The review’s claims, measured", [summary(report)], [
-      ["Effort", report.quick ? "quick: small scenes" : "full"],
-      ...(report.seconds === undefined ? [] : [["Experiments took", duration(report.seconds)] as [string, Child]]),
-    ]),
-    report.complete === false && h("p", { class: "warning", role: "note" }, "The run was interrupted: only these claims have been checked."),
+    header(
+      report,
+      "grove reproduce",
+      "The review’s claims, measured",
+      [summary(report)],
+      [
+        ["Effort", report.quick ? "quick: small scenes" : "full"],
+        ...(report.seconds === undefined ? [] : [["Experiments took", duration(report.seconds)] as [string, Child]]),
+      ],
+    ),
+    report.complete === false &&
+      h("p", { class: "warning", role: "note" }, "The run was interrupted: only these claims have been checked."),
     tally(report),
     filterBar(report, groups, cards),
     groups.map(({ id, title, claims }) =>

@@ -210,15 +210,13 @@ function rowsTable(rows: ScaleRow[]): HTMLElement {
   const columns: Column<ScaleRow>[] = [
     { title: "Structure", ascending: true, value: (row) => row.structure, cell: (row) => structureName(row.structure) },
     { title: "Primitives", numeric: true, ascending: true, value: (row) => row.primitives, cell: (row) => count(row.primitives) },
-    ...figures.map(
-      (figure): Column<ScaleRow> => ({
-        title: figure.title,
-        numeric: true,
-        ascending: true,
-        value: (row) => figure.value(row) ?? null,
-        cell: (row) => figure.text(figure.value(row)),
-      }),
-    ),
+    ...figures.map((figure): Column<ScaleRow> => ({
+      title: figure.title,
+      numeric: true,
+      ascending: true,
+      value: (row) => figure.value(row) ?? null,
+      cell: (row) => figure.text(figure.value(row)),
+    })),
   ];
   const table = sortableTable(columns, rows, { caption: "Figures by structure and size" });
   table.element.classList.add("tall");
