@@ -80,10 +80,13 @@ function optionOf(plot: Plot, theme: Theme, width: number): EChartsOption {
   const ratio = isRatio(plot.y.label);
   const points = plot.series.flatMap((one) => usable(one.points, plot));
   const ys = points.flatMap(([, y, min, max]) => [y, min, max]).filter((y): y is number => typeof y === "number");
+  // Where prediction and measurement are compared, both axes are alike, so that equal figures lie on the diagonal.
+  const xs = points.map(([x]) => x);
+  const both = plot.kind === "scatter" && isPredictedAgainstMeasured(plot) ? [...xs, ...ys] : null;
   const figures = axis(theme, {
     label: plot.y.label,
     log: plot.y.log ?? false,
-    values: ratio ? [...ys, 1] : ys,
+    values: both ?? (ratio ? [...ys, 1] : ys),
     fromZero: plot.kind === "bar" || (plot.kind === "line" && Math.min(...ys) >= 0),
     vertical: !down,
     ...(plot.y.log && ratio && plot.kind === "bar" ? { startValue: 1 } : {}),
@@ -91,7 +94,7 @@ function optionOf(plot: Plot, theme: Theme, width: number): EChartsOption {
   const places = axis(theme, {
     label: plot.x.label,
     log: plot.x.log ?? false,
-    values: points.map(([x]) => x),
+    values: both ?? xs,
     vertical: down,
     ...(plot.x.categories ? { categories: plot.x.categories } : {}),
     labelWidth: labelWidth ?? Math.floor((width - 60) / Math.max(1, plot.x.categories?.length ?? 1)),
