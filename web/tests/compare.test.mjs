@@ -61,6 +61,7 @@ describe("grove compare --html", { skip: !browser }, () => {
       "matched-memory",
     ];
     for (const part of parts) assert.ok(await page.$(`#${part}`), part);
+    for (const target of await page.$$eval(".jump a", (links) => links.map((link) => link.hash))) assert.ok(await page.$(target), target);
     assert.match(await page.textContent("#failures"), /kdtree:max-depth=64.*took more than the 2 GiB/s);
     assert.equal(await page.locator("#advice .card").count(), 5);
     await scrollThrough(page);

@@ -29,28 +29,7 @@ export function comparePage(report: CompareReport): HTMLElement {
   const nameKind = () => (kindOfRays.textContent = view.rays);
   nameKind();
   view.onChange(nameKind);
-  return h(
-    "main",
-    { class: "compare" },
-    header(
-      report,
-      "grove compare",
-      report.scene,
-      [
-        `${count(structures)} structures on the same scene and the same rays. Every hit was checked before anything was timed, and structures took turns, round by round.`,
-      ],
-      [
-        ...(report.primitives === undefined ? [] : [["Primitives", count(report.primitives)] as [string, string]]),
-        ...(report.ray_count === undefined ? [] : [["Rays of each kind", count(report.ray_count)] as [string, string]]),
-        ...(report.rounds === undefined ? [] : [["Rounds", count(report.rounds)] as [string, string]]),
-      ],
-    ),
-    report.complete === false &&
-      h("p", { class: "warning", role: "note" }, "The run was interrupted: these are the rows that were finished."),
-    advicePart(report),
-    glancePart(report),
-    failuresPart(report),
-    controlBar(view),
+  const parts = [
     part(
       "speed",
       "Speed",
@@ -107,5 +86,32 @@ export function comparePage(report: CompareReport): HTMLElement {
         h("div", { class: "card padded" }, sectionElement(report.matched_memory, { heading: report.matched_memory.title !== "" })),
       ),
     notesPart(report),
+  ].filter((one): one is HTMLElement => one instanceof HTMLElement);
+  return h(
+    "main",
+    { class: "compare" },
+    header(
+      report,
+      "grove compare",
+      report.scene,
+      [
+        `${count(structures)} structures on the same scene and the same rays. Every hit was checked before anything was timed, and structures took turns, round by round.`,
+      ],
+      [
+        ...(report.primitives === undefined ? [] : [["Primitives", count(report.primitives)] as [string, string]]),
+        ...(report.ray_count === undefined ? [] : [["Rays of each kind", count(report.ray_count)] as [string, string]]),
+        ...(report.rounds === undefined ? [] : [["Rounds", count(report.rounds)] as [string, string]]),
+      ],
+    ),
+    report.complete === false &&
+      h("p", { class: "warning", role: "note" }, "The run was interrupted: these are the rows that were finished."),
+    advicePart(report),
+    glancePart(report),
+    failuresPart(report),
+    controlBar(
+      view,
+      parts.map((one) => one.id),
+    ),
+    parts,
   );
 }
