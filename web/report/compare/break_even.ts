@@ -4,7 +4,7 @@ import type { EChartsOption, SeriesOption } from "echarts";
 import { axis, plain, tooltip } from "../../shared/axes";
 import { chart } from "../../shared/charts";
 import { h } from "../../shared/dom";
-import { compact, count, duration, number, secondsTick } from "../../shared/format";
+import { compact, count, duration, secondsTick } from "../../shared/format";
 import { familyOf, type Theme } from "../../shared/theme";
 import type { BreakEven } from "../types";
 import { structureName } from "./controls";
@@ -132,7 +132,7 @@ function optionOf(view: View, data: BreakEven, theme: Theme, scale: Scale): ECha
       log: true,
       values: isRelative ? [1, ...times] : times,
       vertical: true,
-      format: isRelative ? (value) => `${number(value, 2)}×` : secondsTick,
+      format: isRelative ? (value) => `${compact(value)}×` : secondsTick,
     }),
     tooltip: tooltip(theme, {
       trigger: "item",
