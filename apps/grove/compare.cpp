@@ -10,7 +10,10 @@
 #include "grove/base/output_file.h"
 #include "grove/lab/comparison.h"
 #include "grove/lab/comparison_report.h"
+#include "grove/lab/matched_memory.h"
+#include "grove/lab/structure_trial.h"
 #include "progress_bar.h"
+#include "scale.h"
 #include "session.h"
 #include "trial_builder.h"
 #include "verbs.h"
@@ -27,6 +30,8 @@ struct CompareOptions : CommonOptions {
   std::filesystem::path csv;
   std::string memory_limit;
   BuildLimits limits;
+  bool matches_memory = false;
+  ScaleOptions scale;
   ComparisonSettings settings;
 };
 
@@ -63,6 +68,18 @@ void save(const CompareOptions& options, const Comparison& so_far, const Console
   }
 }
 
+/// The structures at about the same memory; nothing when interrupted.
+std::optional<ReportSection> match(const CompareOptions& options, const Scene& scene, const std::stop_token& stop) {
+  const ComparisonSettings& settings = options.settings;
+  std::vector<std::string> notes;
+  const std::vector<std::string> specs = settings.structures.empty() ? default_specs(scene.primitive_count(), notes) : settings.structures;
+  try {
+    return matched_memory(scene, specs, settings.camera, settings.workload, settings.rounds, stop);
+  } catch (const Stopped&) {
+    return std::nullopt;
+  }
+}
+
 /// What the comparison comes to, as an exit code.
 int conclude(const Comparison& comparison) {
   std::fflush(stdout);
@@ -79,6 +96,7 @@ int conclude(const Comparison& comparison) {
 int run(CompareOptions& options, Interrupts& interrupts) {
   const Console console(options.quiet);
   read_lists(options);
+  if (options.scale.is_asked) return run_scale(options.scale, options, options.settings, options.limits, interrupts);
   if (!options.json.empty()) check_writable(options.json);
   if (!options.csv.empty()) check_writable(options.csv);
   const Scene scene = load(options.scene, console);
@@ -101,7 +119,11 @@ int run(CompareOptions& options, Interrupts& interrupts) {
   }
   if (!graceful) graceful.emplace(interrupts);
   console.say("");
-  fmt::print("{}", comparison_table(comparison));
+  if (options.matches_memory && comparison.is_complete) {
+    console.status("matching memory");
+    comparison.matched_memory = match(options, scene, interrupts.token());
+  }
+  fmt::print("{}\n{}", comparison_table(comparison), comparison_advice(comparison));
   std::fflush(stdout);
   write_files(options, comparison);
   return conclude(comparison);
@@ -124,6 +146,17 @@ Verb add_compare(CLI::App& program) {
            std::uint64_t{1}, kMostRounds);
   in_range(verb.add_option("--count", settings.workload.ray_count, "Rays of each kind")->type_name("N")->capture_default_str(),
            std::uint64_t{1}, kMostRays);
+  auto* const scale =
+      verb.add_flag("--scale", options->scale.is_asked, "Run a built-in scene at many sizes, and fit how time, memory and steps grow");
+  verb.add_option("--sizes", options->scale.sizes, "Numbers of primitives for --scale (default: 1k,3k,10k,30k,... up to --max)")
+      ->type_name("N,N")
+      ->needs(scale);
+  verb.add_option("--max", options->scale.largest, "The largest of the default sizes for --scale")
+      ->type_name("N")
+      ->capture_default_str()
+      ->needs(scale);
+  verb.add_flag("--matched-memory", options->matches_memory,
+                "Afterwards compare the structures with leaf sizes that make them take about the same memory");
   in_range(verb.add_option("--time-limit", settings.time_limit, "Seconds that building a structure, or tracing one kind of rays, may take")
                ->type_name("SECONDS"),
            1e-3, 1e6);
@@ -142,6 +175,7 @@ Verb add_compare(CLI::App& program) {
       "Examples:\n"
       "  grove compare builtin:sphereflake\n"
       "  grove compare scene.glb --structures \"bvh;bvh:leaf-size=8\" --rays primary,random --rounds 9\n"
+      "  grove compare builtin:mount --scale --max 1M\n"
       "  grove compare builtin:cornell --count 100000 --threads 1 --json compare.json --csv compare.csv");
   return {&verb, [options](Interrupts& interrupts) { return with_threads(options->threads, [&] { return run(*options, interrupts); }); }};
 }

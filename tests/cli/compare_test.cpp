@@ -41,6 +41,30 @@ TEST(Compare, PrintsATableAndWritesJsonAndCsv) {
   EXPECT_EQ(line_count(read_file(directory / "c.csv")), 13U);
 }
 
+TEST(Compare, EndsWithAdviceAndWritesWhatItRestsOn) {
+  const TemporaryDirectory directory;
+  const CommandResult result =
+      run_command(directory, {"compare", "builtin:cornell", "--structures", "bvh;fast", "--rays", "primary,diffuse", "--count", "500",
+                              "--rounds", "2", "--matched-memory", "--json", "c.json", "--quiet"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(read_file(directory / "c.json"));
+  EXPECT_EQ(json.at("format"), "grove-compare");
+  EXPECT_THAT(json.at("command"), HasSubstr("grove compare builtin:cornell --structures 'bvh;fast'"));
+  ASSERT_EQ(json.at("advice").size(), 5U);
+  for (const auto& one : json.at("advice")) {
+    EXPECT_THAT(result.out, HasSubstr("  " + one.at("use").get<std::string>() + ": " + one.at("structure").get<std::string>()));
+    EXPECT_THAT(result.out, HasSubstr(one.at("why").get<std::string>()));
+  }
+  ASSERT_EQ(json.at("break_even").size(), 2U);
+  EXPECT_EQ(json.at("break_even").at(0).at("curves").size(), 2U);
+  EXPECT_EQ(json.at("break_even").at(0).at("best").at(0).at("from_rays"), 0.0);
+  EXPECT_EQ(json.at("heat_maps").at("maps").size(), 2U);
+  EXPECT_EQ(json.at("heat_maps").at("maps").at(0).at("steps").get<std::string>().size(), 320U * 180U * 2U / 3U * 4U);
+  EXPECT_EQ(json.at("matched_memory").at("table").at("rows").size(), 2U);
+  EXPECT_TRUE(json.at("predictions").is_array());
+  EXPECT_THAT(json.at("auto").at("reason"), HasSubstr("triangles"));
+}
+
 TEST(Compare, TracesTheKindsOfRaysAskedFor) {
   const TemporaryDirectory directory;
   const CommandResult result = run_command(

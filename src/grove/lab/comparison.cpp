@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "grove/base/error.h"
+#include "grove/lab/auto_choice.h"
 #include "grove/lab/comparison_workload.h"
 #include "grove/lab/contender.h"
 #include "grove/lab/structure_trial.h"
@@ -30,6 +31,7 @@ class Run {
     result_.machine = describe_machine();
     result_.command = settings_.command;
     for (const std::string& spec : chosen_specs()) specs_.push_back(canonical_spec(spec));
+    result_.auto_choice = auto_choice(scene_, "auto");
     prepare_workloads();
     for (const std::string& spec : specs_) contenders_.emplace_back(spec, workloads_);
     check_all();

@@ -10,7 +10,9 @@
 #include "grove/lab/comparison_row.h"
 #include "grove/lab/heat_map.h"
 #include "grove/lab/machine.h"
+#include "grove/lab/report_section.h"
 #include "grove/lab/workload.h"
+#include "grove/registry/choose_structure.h"
 
 namespace grove {
 
@@ -51,6 +53,10 @@ struct Comparison {
   /// By kind of rays, then in the order of the structures. Structures that have not been looked at yet have none.
   std::vector<ComparisonRow> rows;
   std::vector<HeatMap> heat_maps;
+  /// What `auto` would have taken; nothing for a scene without objects.
+  std::optional<StructureChoice> auto_choice;
+  /// See matched_memory.h; not made by `compare`.
+  std::optional<ReportSection> matched_memory;
   /// What a reader should know, such as a structure that was left out. One line each.
   std::vector<std::string> notes;
 };

@@ -4,6 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "grove/lab/advice.h"
+#include "grove/lab/break_even.h"
+#include "grove/lab/predictions.h"
+
 namespace grove {
 namespace {
 
@@ -64,6 +68,19 @@ Json heat_maps_json(std::span<const HeatMap> maps) {
   return {{"width", kHeatMapWidth}, {"height", kHeatMapHeight}, {"maps", std::move(list)}};
 }
 
+Json break_even_json(std::span<const ComparisonRow> rows) {
+  Json list = Json::array();
+  for (const BreakEven& one : break_even(rows)) {
+    Json curves = Json::array();
+    for (const ImageTime& time : one.times)
+      curves.push_back({{"structure", time.structure}, {"build_seconds", time.build_seconds}, {"seconds_per_ray", time.seconds_per_ray}});
+    Json best = Json::array();
+    for (const QuickestFrom& from : one.quickest) best.push_back({{"from_rays", from.rays}, {"structure", from.structure}});
+    list.push_back({{"rays", one.rays}, {"curves", std::move(curves)}, {"best", std::move(best)}});
+  }
+  return list;
+}
+
 }  // namespace
 
 Json machine_json(const Machine& machine) {
@@ -93,6 +110,13 @@ Json comparison_json(const Comparison& comparison) {
             {"date", comparison.date},
             {"rows", std::move(rows)},
             {"notes", comparison.notes}};
+  json["break_even"] = break_even_json(comparison.rows);
+  json["predictions"] = Json::array();
+  for (const ReportSection& section : predictions(comparison.rows)) json["predictions"].push_back(section_json(section));
+  if (comparison.matched_memory) json["matched_memory"] = section_json(*comparison.matched_memory);
+  json["advice"] = Json::array();
+  for (const Advice& one : advise(comparison)) json["advice"].push_back({{"use", one.use}, {"structure", one.structure}, {"why", one.why}});
+  if (comparison.auto_choice) json["auto"] = {{"structure", comparison.auto_choice->structure}, {"reason", comparison.auto_choice->reason}};
   if (!comparison.heat_maps.empty()) json["heat_maps"] = heat_maps_json(comparison.heat_maps);
   return json;
 }

@@ -17,6 +17,9 @@ namespace grove {
 /// follow.
 [[nodiscard]] std::string comparison_table(const Comparison& comparison);
 
+/// What follows from the tables: from how many rays on which structure is quickest, what matching memory gave, and advice for each use.
+[[nodiscard]] std::string comparison_advice(const Comparison& comparison);
+
 /// The shape "grove-compare" of docs/command-line.md. A failed row has an `error`, and null for each figure that it lacks.
 [[nodiscard]] nlohmann::ordered_json comparison_json(const Comparison& comparison);
 

@@ -1,7 +1,6 @@
 #include "grove/lab/comparison_row.h"
 
 #include <memory>
-#include <variant>
 
 #include "grove/lab/largest_object.h"
 
@@ -30,9 +29,7 @@ std::optional<UpdateTrial> try_update(const Scene& scene, const std::string& spe
   // Hierarchies have a refit; `fast` over triangles has none.
   const bool has_refit = spec.starts_with("bvh") || (spec.starts_with("fast") && object != nullptr && object->geometry.index() != 0);
   if (object == nullptr || !has_refit) return std::nullopt;
-  const GeometryPointer geometry = std::visit(
-      []<typename Set>(const std::shared_ptr<Set>& set) -> GeometryPointer { return std::shared_ptr<const Set>(set); }, object->geometry);
-  const std::unique_ptr<Accelerator> structure = build(geometry, spec);
+  const std::unique_ptr<Accelerator> structure = build(geometry_of(*object), spec);
   UpdateSettings settings;
   settings.policy = UpdatePolicy::refit;
   const UpdateReport report = structure->update(settings);
