@@ -18,7 +18,7 @@ function isRatio(label: string): boolean {
 
 function isPredictedAgainstMeasured(plot: Plot): boolean {
   return (
-    (/predicted/.test(plot.x.label) && /measured/.test(plot.y.label)) ||
+    (/predicted|foretold/.test(plot.x.label) && /measured/.test(plot.y.label)) ||
     (/expected tests/.test(plot.x.label) && /counted tests/.test(plot.y.label)) ||
     (/ratio of areas/.test(plot.x.label) && /share/.test(plot.y.label))
   );

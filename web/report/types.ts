@@ -140,6 +140,8 @@ export interface ReproduceReport extends Report {
 
 export interface Fit {
   exponent: number;
+  /** The figure at one primitive; zero where nothing could be fitted. */
+  factor?: number;
   r_squared: number;
 }
 
@@ -158,6 +160,9 @@ export interface ScaleRow {
 export interface ScaleReport extends Report {
   scene: string;
   sizes?: number[];
+  rays?: string;
+  ray_count?: number;
+  complete?: boolean;
   rows: ScaleRow[];
   fits?: { structure: string; build?: Fit | null; memory?: Fit | null; steps?: Fit | null }[];
   sections?: Section[];

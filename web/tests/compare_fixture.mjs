@@ -1,4 +1,5 @@
-// Results of `grove compare` with every field there is: those that a run has not got are made up from those that it has.
+// Results of `grove compare` with every field there is: those that a run has not got are made up from those that it has,
+// and so are heat maps, whose pixels tests must know.
 
 /** `report` with all fields of version 1. */
 export function withAllFields(report) {
@@ -11,11 +12,11 @@ export function withAllFields(report) {
     date: "2026-03-04T05:06:07Z",
     break_even: kinds.map((rays) => breakEven(rays, rows)),
     predictions: [prediction(rows)],
-    heat_maps: heatMaps([...new Set(rows.map((row) => row.structure))]),
     matched_memory: matchedMemory(rows),
     advice: advice(rows),
     auto: { structure: "fast", reason: "triangles that do not move, and enough memory: the fast path was the quickest in 14 of 16 scenes" },
     ...present(report),
+    heat_maps: heatMaps([...new Set(rows.map((row) => row.structure))]),
     rows: [
       ...rows,
       ...kinds.map((rays) => ({
