@@ -26,7 +26,8 @@ TEST(Help, OfEachVerbIsComplete) {
         "--integrator", "--exposure", "--json", "--quiet"}},
       {"trace", {"SCENE", "--rays", "--hits", "--structure", "--query", "--threads", "--repeat", "--json", "--quiet"}},
       {"compare",
-       {"SCENE", "--structures", "--rays", "--rounds", "--count", "--seed", "--camera", "--threads", "--json", "--csv", "--quiet"}},
+       {"SCENE", "--structures", "--rays", "--rounds", "--count", "--seed", "--camera", "--threads", "--json", "--csv", "--time-limit",
+        "--memory-limit", "--quiet"}},
       {"inspect", {"SCENE", "--structure", "--threads", "--json", "--obj", "--depth", "--quiet"}},
       {"structures", {"--json"}}};
   for (const auto& [verb, names] : options) {
