@@ -82,7 +82,7 @@ TEST_P(StructureSamples, AddUp) {
   const Scene scene = testing::small_scene();
   const SceneAccelerator accelerator(scene, GetParam());
   const PictureRays picture(workload_camera(scene, ""));
-  const StructureSample sample = sample_structure(accelerator.top(), picture);
+  const StructureSample sample = sample_structure(scene, accelerator, picture);
   const std::span<const ViewNode> nodes = sample.tree.nodes();
   ASSERT_EQ(nodes.size(), accelerator.statistics().nodes);
   EXPECT_EQ(nodes.front().references, accelerator.statistics().references);
@@ -107,7 +107,7 @@ TEST_P(StructureSamples, RecordTheSameHits) {
   const Scene scene = testing::small_scene();
   const SceneAccelerator accelerator(scene, GetParam());
   const PictureRays picture(workload_camera(scene, ""));
-  const StructureSample sample = sample_structure(accelerator.top(), picture);
+  const StructureSample sample = sample_structure(scene, accelerator, picture);
   const std::vector<std::uint32_t> pixels = PictureRays::pixels(PictureRays::kLeastStride);
   ASSERT_EQ(sample.recorded.size(), pixels.size());
   std::size_t hit_count = 0;
@@ -128,7 +128,7 @@ TEST_P(StructureSamples, KeepWhatRecordedRaysComeTo) {
   const Scene scene = testing::small_scene();
   const SceneAccelerator accelerator(scene, GetParam());
   const PictureRays picture(workload_camera(scene, ""));
-  const StructureSample sample = sample_structure(accelerator.top(), picture);
+  const StructureSample sample = sample_structure(scene, accelerator, picture);
   ViewLimits limits;
   limits.most_nodes = accelerator.statistics().nodes / 2;
   const NodeSelection selection = select_nodes(sample.tree, sample.recorded, limits);
@@ -160,7 +160,7 @@ TEST(StructureSample, TracesFewerRaysWhereTheyTakeManySteps) {
   const Scene scene = testing::small_scene();
   const SceneAccelerator accelerator(scene, "bvh");
   const PictureRays picture(workload_camera(scene, ""));
-  const StructureSample sample = sample_structure(accelerator.top(), picture, 200'000);
+  const StructureSample sample = sample_structure(scene, accelerator, picture, 200'000);
   EXPECT_LT(sample.picture.width, PictureRays::kWidth);
   EXPECT_EQ(sample.picture.steps.size(), std::size_t{sample.picture.width} * sample.picture.height);
 }
@@ -207,21 +207,64 @@ TEST(StructureView, HoldsAllStructures) {
   const auto ray_count = rays.at("columns").get<std::size_t>() * rays.at("rows").get<std::size_t>();
   EXPECT_EQ(from_base64(rays.at("lines")).size(), 24 * ray_count);
   EXPECT_EQ(from_base64(rays.at("distances")).size(), 4 * ray_count);
-  EXPECT_EQ(json.at("tested").at("kind"), "triangle");
   const auto tested = json.at("tested").at("count").get<std::size_t>();
-  EXPECT_GT(tested, 100U);
+  EXPECT_GT(tested, 50U);
+  EXPECT_EQ(from_base64(json.at("tested").at("kinds")), std::vector<std::uint8_t>(tested, 0));
   EXPECT_EQ(from_base64(json.at("tested").at("shapes")).size(), 18 * tested);
 }
 
-TEST(StructureView, ShowsInstancesAsPrimitives) {
+TEST_P(StructureSamples, GoIntoTheObjectsOfInstances) {
+  const Scene scene = testing::instanced_scene();
+  const SceneAccelerator accelerator(scene, GetParam());
+  const PictureRays picture(workload_camera(scene, ""));
+  const StructureSample sample = sample_structure(scene, accelerator, picture);
+  ASSERT_TRUE(sample.tree.is_whole());
+  // The object stands twice.
+  const std::uint64_t object_nodes = accelerator.objects()[0]->statistics().nodes;
+  EXPECT_EQ(sample.tree.nodes().size(), accelerator.top().statistics().nodes + 2 * object_nodes);
+  TraversalCounts counts;
+  for (const Ray& ray : picture.rays()) static_cast<void>(accelerator.top().closest_hit(ray, &counts));
+  EXPECT_EQ(sample.tree.nodes().front().tests, counts.primitives_tested);
+
+  const std::vector<std::uint32_t> pixels = PictureRays::pixels(PictureRays::kLeastStride);
+  std::size_t hit_count = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    TraversalCounts ray_counts;
+    const Hit hit = accelerator.top().closest_hit(picture.rays()[pixels[i]], &ray_counts);
+    ASSERT_TRUE(same_bits(hit, sample.recorded[i].hit));
+    std::uint64_t tests = 0;
+    float closest = std::numeric_limits<float>::infinity();
+    for (const PlacedStep& step : sample.recorded[i].steps) {
+      if (step.kind != TraversalStep::Kind::test) ASSERT_LT(step.place, sample.tree.nodes().size());
+      tests += step.kind == TraversalStep::Kind::test ? 1 : 0;
+      if (step.is_closest_yet && step.instance == kInvalidId) closest = step.distance;
+    }
+    EXPECT_EQ(tests, ray_counts.primitives_tested);
+    if (!hit) continue;
+    EXPECT_EQ(closest, hit.t);
+    ++hit_count;
+  }
+  EXPECT_GT(hit_count, 100U);
+}
+
+TEST(StructureView, TellsInstancesFromTheirTriangles) {
   const Scene scene = testing::instanced_scene();
   StructureView view(scene, workload_camera(scene, ""), 1);
   const SceneAccelerator accelerator(scene, "bvh");
   view.add(accelerator, structure_json("bvh", accelerator.statistics(), 1));
   const nlohmann::ordered_json json = view.json("small", "grove inspect");
-  EXPECT_EQ(json.at("tested").at("kind"), "instance");
-  EXPECT_EQ(json.at("tested").at("count"), 2U);
-  EXPECT_GT(json.at("structures").front().at("nested_tests").get<std::uint64_t>(), 0U);
+  EXPECT_EQ(json.at("structures").front().at("objects_shown"), true);
+  const std::vector<std::uint8_t> kinds = from_base64(json.at("tested").at("kinds"));
+  EXPECT_EQ(std::ranges::count(kinds, 2), 2) << "instances";
+  EXPECT_GT(std::ranges::count(kinds, 0), 50) << "triangles";
+}
+
+TEST(ViewTree, LeavesOutObjectsThatAreTooMany) {
+  const Scene scene = testing::instanced_scene();
+  const SceneAccelerator accelerator(scene, "bvh");
+  const ViewTree tree(scene, accelerator, accelerator.objects()[0]->statistics().nodes);
+  EXPECT_FALSE(tree.is_whole());
+  EXPECT_EQ(tree.nodes().size(), accelerator.top().statistics().nodes);
 }
 
 TEST(StructureView, RefusesWhatHasNoNodes) {

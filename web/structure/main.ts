@@ -54,7 +54,10 @@ function notes(payload: Payload, trees: Tree[]): HTMLElement {
       `${tree.name}: ${integer(tree.count)} of ${integer(tree.total)} nodes are in this page: all to level ${tree.completeDepth}, and below it those that recorded rays come to.`),
     ...trees.filter((tree) => tree.sampledRays !== trees[0]!.sampledRays).map((tree) =>
       `${tree.name}: only ${integer(tree.sampledRays)} rays, as they take many steps.`),
-    trees.some((tree) => tree.hasTopLevel) ? "The structure shown is the one over the instances; each instance's object has one of its own, whose steps are counted but not shown." : "",
+    trees.some((tree) => tree.hasTopLevel && tree.objectsShown)
+      ? "The scene has instances. The structure over them is the root and what is below it; the structures of their objects hang below the root, too, one for each instance in its place." : "",
+    trees.some((tree) => tree.hasTopLevel && !tree.objectsShown)
+      ? "The scene has instances, and their objects too many nodes together: only the structure over the instances is shown. Steps in objects are counted in the picture alone." : "",
     trees.some((tree) => /bounds=(obb|sphere)/.test(tree.name)) ? "Oriented boxes and spheres are drawn as the axis-aligned boxes around them." : "",
   ];
   return element("section", { class: "notes" }, element("h2", {}, "Notes"), element("ul", {}, ...list.filter(Boolean).map((text) => element("li", {}, text))));
@@ -140,7 +143,7 @@ function start(root: HTMLElement, payload: Payload): void {
   };
   store.onChange((changed) => {
     if (touches(changed, "from", "to", "metric", "drawAs")) showNodes();
-    if (touches(changed, "nodeOpacity", "sceneOpacity")) panes.forEach((pane) => pane.setOpacities(store.choice));
+    if (touches(changed, "nodeOpacity", "sceneOpacity", "ray")) panes.forEach((pane) => pane.setOpacities(store.choice));
     if (changed.has("ray")) {
       const { ray } = store.choice;
       traces = ray === null ? [] : trees.map((tree) => tree.traces.trace(ray));

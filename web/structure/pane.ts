@@ -81,7 +81,12 @@ export class Pane {
   }
 
   setOpacities(choice: Choice): void {
-    this.nodes.setOpacity(choice.nodeOpacity, 0.12 * choice.nodeOpacity ** 2);
+    // Beside a ray the nodes that it comes to count.
+    const nodeOpacity = choice.nodeOpacity * (choice.ray === null ? 1 : 0.25);
+    // Glass behind glass adds up: level behind level, and box behind box.
+    const levels = choice.to - choice.from + 1;
+    const behind = Math.cbrt(Math.max((this.shown?.drawn ?? 0) / levels / 100, 1));
+    this.nodes.setOpacity(nodeOpacity, (0.12 * nodeOpacity ** 2) / levels / behind);
     this.material.opacity = choice.sceneOpacity;
     this.material.visible = choice.sceneOpacity > 0;
     const isTransparent = choice.sceneOpacity < 1;

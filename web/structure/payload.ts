@@ -11,6 +11,7 @@ export interface PayloadStructure {
   structure: string;
   figures: Record<string, unknown>;
   has_top_level: boolean;
+  objects_shown: boolean;
   bounds: PayloadBox;
   nodes: {
     count: number;
@@ -26,7 +27,6 @@ export interface PayloadStructure {
     planes: string;
   };
   sampled_rays: number;
-  nested_tests: number;
   picture: { width: number; height: number; steps: string };
   traces: string;
 }
@@ -44,7 +44,7 @@ export interface Payload {
   triangles: { total: number; shown: number; grid: number; one_in: number; vertices: string; indices: string };
   picture: { width: number; height: number; shades: string };
   rays: { stride: number; columns: number; rows: number; lines: string; distances: string };
-  tested: { kind: "triangle" | "sphere" | "instance"; count: number; ids: string; shapes: string };
+  tested: { count: number; kinds: string; ids: string; instances: string; shapes: string };
   structures: PayloadStructure[];
 }
 

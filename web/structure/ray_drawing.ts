@@ -21,14 +21,19 @@ export interface RayColours {
 const upwards = new Vector3(0, 1, 0);
 
 /** Where a step is: a box as in Tree.box. */
-export function boxOfStep(tree: Tree, step: Step): ArrayLike<number> | null {
+function boxOfStep(tree: Tree, step: Step): ArrayLike<number> | null {
   if (step.kind === "gap") return tree.octantBox(step.node, step.octant);
   return step.node >= 0 ? tree.box.subarray(6 * step.node, 6 * step.node + 6) : null;
 }
 
+/** Whether a step finds a hit itself, not by way of an instance's object. */
+function hits(step: Step, tested: TestedPrimitives): boolean {
+  return step.hit !== null && tested.kind(step.tested) !== "instance";
+}
+
 /** How far along the ray a step is. */
-export function distanceOfStep(tree: Tree, ray: Ray, step: Step, scale: number): number {
-  if (step.hit !== null) return step.hit * scale;
+function distanceOfStep(tree: Tree, ray: Ray, step: Step, scale: number, tested: TestedPrimitives): number {
+  if (step.hit !== null && hits(step, tested)) return step.hit * scale;
   const box = boxOfStep(tree, step);
   return (box && stretchIn(ray, box)?.from) ?? 0;
 }
@@ -43,7 +48,7 @@ export class RayDrawing {
   private readonly front = new Mesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({ depthTest: false, transparent: true }));
   private readonly triangles = new Mesh(
     new BufferGeometry(),
-    new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, transparent: true, opacity: 0.9, depthTest: false }),
+    new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, transparent: true, opacity: 0.5, depthTest: false }),
   );
 
   constructor() {
@@ -76,14 +81,14 @@ export class RayDrawing {
     this.whole.geometry = new BufferGeometry().setFromPoints([ray.origin, at(end)]);
     this.whole.material.color.copy(colours.ray);
 
-    const reached = last ? Math.min(distanceOfStep(tree, ray, last, rays.scale), end) : 0;
+    const reached = last ? Math.min(distanceOfStep(tree, ray, last, rays.scale, tested), end) : 0;
     const middle = at(reached / 2);
     this.travelled.position.copy(middle);
     this.travelled.quaternion.copy(new Quaternion().setFromUnitVectors(upwards, ray.direction));
     this.travelled.scale.set(1, Math.max(reached, 1e-6), 1);
     this.travelled.material.color.copy(colours.ray);
     this.front.position.copy(at(reached));
-    this.front.material.color.copy(last?.hit != null ? colours.hit : colours.ray);
+    this.front.material.color.copy(last && hits(last, tested) ? colours.hit : colours.ray);
 
     const places = new Map<string, ArrayLike<number>>();
     for (const step of done) {
@@ -104,20 +109,18 @@ export class RayDrawing {
   }
 
   private showTested(done: Step[], last: Step | undefined, tested: TestedPrimitives, colours: RayColours): void {
-    const closest = [...done].reverse().find((step) => step.hit !== null);
+    const closest = [...done].reverse().find((step) => hits(step, tested));
     const shown = done.filter((step) => step.kind === "test" && (step === last || step === closest));
-    const colourOf = (step: Step) => (step.hit !== null ? colours.hit : colours.miss);
-    this.triangles.visible = tested.kind === "triangle" && shown.length > 0;
-    if (tested.kind !== "triangle") {
-      const boxes = shown.map((step) => tested.shape(step.tested));
-      fill(this.testedBox, boxes, shown[0] ? colourOf(shown.at(-1)!) : colours.miss);
-      return;
-    }
+    const colourOf = (step: Step) => (hits(step, tested) ? colours.hit : colours.miss);
+    const triangles = shown.filter((step) => tested.kind(step.tested) === "triangle");
+    const others = shown.filter((step) => tested.kind(step.tested) !== "triangle");
+    fill(this.testedBox, others.map((step) => tested.shape(step.tested)), others[0] ? colourOf(others.at(-1)!) : colours.miss);
+    this.triangles.visible = triangles.length > 0;
     const geometry = new BufferGeometry();
-    geometry.setAttribute("position", new BufferAttribute(Float32Array.from(shown.flatMap((step) => [...tested.shape(step.tested)])), 3));
+    geometry.setAttribute("position", new BufferAttribute(Float32Array.from(triangles.flatMap((step) => [...tested.shape(step.tested)])), 3));
     geometry.setAttribute(
       "color",
-      new BufferAttribute(Float32Array.from(shown.flatMap((step) => [0, 1, 2].flatMap(() => colourOf(step).toArray()))), 3),
+      new BufferAttribute(Float32Array.from(triangles.flatMap((step) => [0, 1, 2].flatMap(() => colourOf(step).toArray()))), 3),
     );
     this.triangles.geometry.dispose();
     this.triangles.geometry = geometry;

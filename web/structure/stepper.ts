@@ -11,8 +11,12 @@ const kindNames = { node: "steps through node", cell: "comes to the cell of leaf
 /** A step in words. */
 export function describeStep(tree: Tree, step: Step, tested: TestedPrimitives): string {
   if (step.kind === "test") {
+    if (tested.kind(step.tested) === "instance") {
+      const outcome = step.hit === null ? "without a closer hit" : `with a hit at ${short(step.hit)}`;
+      return `goes into ${tested.name(step.tested, integer)}, to come back ${outcome}`;
+    }
     const outcome = step.hit === null ? "no closer hit" : `hit at ${short(step.hit)}, the closest yet`;
-    return `tests ${tested.kind} ${integer(tested.id(step.tested))}: ${outcome}`;
+    return `tests ${tested.name(step.tested, integer)}: ${outcome}`;
   }
   const level = `level ${tree.depth[step.node] ?? "?"}`;
   const size = tree.isLeaf[step.node] ? `, ${integer(tree.metrics.references[step.node] ?? 0)} references` : "";
@@ -29,7 +33,9 @@ export function describeState(tree: Tree, trace: Trace, taken: number, tested: T
   const so = `${done - tests - leaves} nodes, ${leaves} leaves, ${tests} tests so far`;
   if (done === 0) return `Before the first of ${integer(count)} steps`;
   const end = done === count ? (trace.isCut ? " (further steps are not kept)" : " (the end)") : "";
-  return `${integer(done)}/${integer(count)}${end}: ${describeStep(tree, trace.steps[done - 1]!, tested)}. ${so}`;
+  const hit = trace.steps.slice(0, done).filter((step) => step.hit !== null).at(-1)?.hit;
+  const found = hit == null ? "nothing hit yet" : `closest hit at ${short(hit)}`;
+  return `${integer(done)}/${integer(count)}${end}: ${describeStep(tree, trace.steps[done - 1]!, tested)}. ${so}, ${found}`;
 }
 
 export class Stepper {

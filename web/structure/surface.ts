@@ -1,7 +1,7 @@
 // The triangles of the scene, and the primitives that rays were tested against.
 
 import { BufferAttribute, BufferGeometry } from "three";
-import { ByteReader } from "./bytes";
+import { ByteReader, readBytes, readVarints } from "./bytes";
 import type { Payload } from "./payload";
 import type { Space } from "./space";
 
@@ -36,36 +36,51 @@ export function surfaceNote(payload: Payload, format: (value: number) => string)
   );
 }
 
+export type PrimitiveKind = "triangle" | "sphere" | "instance";
+
+const primitiveKinds: PrimitiveKind[] = ["triangle", "sphere", "instance"];
+
 /** The primitives that recorded rays were tested against. */
 export class TestedPrimitives {
-  readonly kind: "triangle" | "sphere" | "instance";
+  private readonly kinds: Uint8Array;
   private readonly ids: Float64Array;
+  private readonly instances: Float64Array;
   private readonly shapes: Float32Array;
-  private readonly numbers: number;
+  private readonly firsts: Uint32Array;
 
   constructor(payload: Payload, space: Space) {
-    const { kind, count, ids, shapes } = payload.tested;
-    this.kind = kind;
-    this.numbers = kind === "triangle" ? 9 : 6;
+    const { count, kinds, ids, instances, shapes } = payload.tested;
+    this.kinds = readBytes(kinds);
+    this.instances = readVarints(instances, count);
     this.ids = new Float64Array(count);
+    this.firsts = new Uint32Array(count + 1);
     const idReader = new ByteReader(ids);
     let last = 0;
     for (let i = 0; i < count; ++i) {
       last += idReader.signed();
       this.ids[i] = last;
+      this.firsts[i + 1] = this.firsts[i]! + (this.kind(i) === "triangle" ? 9 : 6);
     }
     const toDrawing = space.stepOf(payload.bounds);
     const shapeReader = new ByteReader(shapes);
-    this.shapes = new Float32Array(this.numbers * count);
+    this.shapes = new Float32Array(this.firsts[count]!);
+    // Points are three numbers each, whatever they belong to.
     for (let i = 0; i < this.shapes.length; ++i) this.shapes[i] = toDrawing(i % 3, shapeReader.u16());
   }
 
-  id(tested: number): number {
-    return this.ids[tested] ?? 0;
+  kind(tested: number): PrimitiveKind {
+    return primitiveKinds[this.kinds[tested] ?? 0]!;
+  }
+
+  /** The primitive in words. */
+  name(tested: number, format: (value: number) => string): string {
+    const instance = this.instances[tested] ?? 0;
+    const place = instance > 0 ? ` of instance ${format(instance - 1)}` : "";
+    return `${this.kind(tested)} ${format(this.ids[tested] ?? 0)}${place}`;
   }
 
   /** Three corners of a triangle; of others the lower and upper ends of a box. */
   shape(tested: number): Float32Array {
-    return this.shapes.subarray(this.numbers * tested, this.numbers * (tested + 1));
+    return this.shapes.subarray(this.firsts[tested]!, this.firsts[tested + 1]!);
   }
 }

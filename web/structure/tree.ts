@@ -16,8 +16,8 @@ export class Tree {
   readonly completeDepth: number;
   readonly maxDepth: number;
   readonly sampledRays: number;
-  readonly nestedTests: number;
   readonly hasTopLevel: boolean;
+  readonly objectsShown: boolean;
   readonly figures: Record<string, unknown>;
   readonly parent: Int32Array;
   readonly depth: Uint16Array;
@@ -44,8 +44,8 @@ export class Tree {
     this.total = nodes.total;
     this.completeDepth = nodes.complete_depth;
     this.sampledRays = data.sampled_rays;
-    this.nestedTests = data.nested_tests;
     this.hasTopLevel = data.has_top_level;
+    this.objectsShown = data.objects_shown;
     this.figures = data.figures;
 
     const distances = readVarints(nodes.parents, count);

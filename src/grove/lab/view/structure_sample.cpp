@@ -21,53 +21,59 @@ std::uint32_t affordable_stride(const Accelerator& accelerator, const PictureRay
   return stride;
 }
 
-RecordedRay place_steps(const ViewTree& tree, const TraversalRecord& record, const Hit& hit) {
+RecordedRay place_steps(const ViewTree& tree, const std::vector<SceneStep>& steps, const Hit& hit) {
   RecordedRay ray;
   ray.hit = hit;
-  const std::size_t count = std::min(record.steps.size(), kMostStepsOfRay);
-  ray.is_cut = count < record.steps.size();
+  const std::size_t count = std::min(steps.size(), kMostStepsOfRay);
+  ray.is_cut = count < steps.size();
   ray.steps.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const TraversalStep& step = record.steps[i];
+    const TraversalStep& step = steps[i].step;
+    const std::uint32_t instance = steps[i].instance;
+    if (instance != kInvalidId && !tree.is_whole()) continue;
     PlacedStep& placed = ray.steps.emplace_back(PlacedStep{step.kind, step.octant});
     if (step.kind != TraversalStep::Kind::test) {
-      placed.place = tree.find(step);
+      placed.place = tree.find(steps[i]);
       continue;
     }
     placed.place = step.number;
-    // Each step tells what was closest before it.
-    placed.distance = i + 1 < record.steps.size() ? record.steps[i + 1].closest : hit.t;
-    placed.is_closest_yet = hit && placed.distance < step.closest;
+    placed.instance = instance;
+    placed.distance = steps[i].closest_after;
+    placed.is_closest_yet = placed.distance < step.closest;
   }
   return ray;
 }
 
+std::uint64_t count_steps(const std::vector<SceneStep>& steps) {
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(steps, [](const SceneStep& step) { return step.step.kind != TraversalStep::Kind::leaf; }));
+}
+
 }  // namespace
 
-StructureSample sample_structure(const Accelerator& accelerator, const PictureRays& picture, std::uint64_t most_steps) {
-  StructureSample sample{ViewTree(accelerator), {}, {}, 0};
-  const std::uint32_t stride = affordable_stride(accelerator, picture, most_steps);
+StructureSample sample_structure(const Scene& scene, const SceneAccelerator& accelerator, const PictureRays& picture,
+                                 std::uint64_t most_steps) {
+  StructureSample sample{ViewTree(scene, accelerator), {}, {}};
+  const std::uint32_t stride = affordable_stride(accelerator.top(), picture, most_steps);
   sample.picture.width = PictureRays::columns(stride);
   sample.picture.height = PictureRays::rows(stride);
 
-  TraversalRecord record;
+  SceneWalks walks(scene, accelerator);
+  std::vector<SceneStep> steps;
   const std::vector<std::uint32_t> pixels = PictureRays::pixels(stride);
   sample.picture.steps.reserve(pixels.size());
   for (const std::uint32_t pixel : pixels) {
-    static_cast<void>(accelerator.record_steps(picture.rays()[pixel], record));
-    sample.tree.count(record.steps);
-    const auto leaves = std::ranges::count(record.steps, TraversalStep::Kind::leaf, &TraversalStep::kind);
-    const std::uint64_t steps = record.steps.size() - static_cast<std::size_t>(leaves) + steps_of(record.nested);
-    sample.picture.steps.push_back(static_cast<std::uint32_t>(steps));
-    sample.nested_tests += record.nested.primitives_tested;
+    static_cast<void>(walks.record(picture.rays()[pixel], steps));
+    sample.tree.count(steps);
+    sample.picture.steps.push_back(static_cast<std::uint32_t>(count_steps(steps)));
   }
   sample.tree.sum_up();
 
   const std::vector<std::uint32_t> looked_at = PictureRays::pixels(PictureRays::kLeastStride);
   sample.recorded.reserve(looked_at.size());
   for (const std::uint32_t pixel : looked_at) {
-    const Hit hit = accelerator.record_steps(picture.rays()[pixel], record);
-    sample.recorded.push_back(place_steps(sample.tree, record, hit));
+    const Hit hit = walks.record(picture.rays()[pixel], steps);
+    sample.recorded.push_back(place_steps(sample.tree, steps, hit));
   }
   return sample;
 }

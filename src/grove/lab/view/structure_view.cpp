@@ -110,7 +110,7 @@ std::string traces_base64(const std::vector<RecordedRay>& recorded, std::span<co
     std::int64_t last_test = 0;
     for (const PlacedStep& step : ray.steps) {
       if (step.kind == TraversalStep::Kind::test) {
-        const std::int64_t place = tested.place(step.place);
+        const std::int64_t place = tested.place(step.place, step.instance);
         bytes.add_varint(PackedBytes::zigzag(place - last_test) << 3U | (step.is_closest_yet ? kClosestYet : kTest));
         if (step.is_closest_yet) bytes.add_float(step.distance);
         last_test = place;
@@ -133,7 +133,7 @@ StructureView::StructureView(const Scene& scene, const Camera& camera, std::size
 
 void StructureView::add(const SceneAccelerator& accelerator, Json figures) {
   const Accelerator& top = accelerator.top();
-  StructureSample sample = sample_structure(top, picture_);
+  StructureSample sample = sample_structure(scene_, accelerator, picture_);
   if (sample.tree.nodes().empty())
     throw UsageError(fmt::format("--html: structure '{}' has no nodes to show; name another", accelerator.spec()));
   if (shades_.empty()) {
@@ -148,10 +148,10 @@ void StructureView::add(const SceneAccelerator& accelerator, Json figures) {
   json["structure"] = accelerator.spec();
   json["figures"] = std::move(figures);
   json["has_top_level"] = accelerator.has_top_level();
+  json["objects_shown"] = accelerator.has_top_level() && sample.tree.is_whole();
   json["bounds"] = box_json(bounds);
   json["nodes"] = nodes_json(sample.tree, selection, bounds);
   json["sampled_rays"] = sample.picture.steps.size();
-  json["nested_tests"] = sample.nested_tests;
   json["picture"] = picture_json(sample.picture);
 
   for (RecordedRay& ray : sample.recorded) {

@@ -8,10 +8,34 @@ void put(std::vector<std::uint32_t>& places, std::uint32_t number, std::uint32_t
   places[number] = place;
 }
 
+std::uint32_t get(const std::vector<std::uint32_t>& places, std::uint32_t number) {
+  return number < places.size() ? places[number] : ViewNode::kNone;
+}
+
 }  // namespace
 
-ViewTree::ViewTree(const Accelerator& accelerator) {
-  nodes_.reserve(accelerator.statistics().nodes);
+ViewTree::ViewTree(const Scene& scene, const SceneAccelerator& accelerator, std::size_t most_nested_nodes) {
+  std::size_t nested = 0;
+  if (accelerator.has_top_level())
+    for (const Instance& instance : scene.instances) nested += accelerator.objects()[instance.object]->statistics().nodes;
+  is_whole_ = nested <= most_nested_nodes;
+  nodes_.reserve(accelerator.top().statistics().nodes + (is_whole_ ? nested : 0));
+  add(accelerator.top(), Transform(), ViewNode::kNone, &top_);
+  if (!accelerator.has_top_level() || !is_whole_ || nodes_.empty()) return;
+  objects_.resize(accelerator.objects().size());
+  std::vector<bool> is_known(objects_.size(), false);
+  instances_.reserve(scene.instances.size());
+  for (const Instance& instance : scene.instances) {
+    instances_.push_back({instance.object, static_cast<std::uint32_t>(nodes_.size())});
+    add(*accelerator.objects()[instance.object], instance.object_to_world, 0,
+        is_known[instance.object] ? nullptr : &objects_[instance.object]);
+    is_known[instance.object] = true;
+  }
+}
+
+void ViewTree::add(const Accelerator& accelerator, const Transform& transform, std::uint32_t parent, Places* places) {
+  const auto root = static_cast<std::uint32_t>(nodes_.size());
+  const std::uint32_t root_depth = parent == ViewNode::kNone ? 0 : nodes_[parent].depth + 1;
   std::vector<std::uint32_t> path;  // the last node of each level
   bool follows_interior = false;
   std::uint32_t last_depth = 0;
@@ -21,57 +45,61 @@ ViewTree::ViewTree(const Accelerator& accelerator) {
     const bool is_own = view.is_leaf && follows_interior && view.depth == last_depth;
     const std::uint32_t depth = view.depth + (is_own ? 1 : 0);
     ViewNode& node = nodes_.emplace_back();
-    node.box = view.box;
+    node.box = transform.is_identity() ? view.box : transform.box(view.box);
     node.planes = view.planes;
-    node.depth = depth;
-    node.cut_axes = view.cut_axes;
+    node.depth = root_depth + depth;
+    node.cut_axes = transform.is_identity() ? view.cut_axes : 0;
     node.is_leaf = view.is_leaf;
     node.references = view.is_leaf ? view.reference_count : 0;
-    if (depth > 0) {
-      node.parent = path[depth - 1];
-      ++nodes_[node.parent].child_count;
-    }
+    node.parent = depth > 0 ? path[depth - 1] : parent;
+    if (node.parent != ViewNode::kNone) ++nodes_[node.parent].child_count;
     path.resize(std::size_t{depth} + 1);
     path[depth] = place;
-    // Leaves without references may share their number with one that has some.
-    if (!view.is_leaf) {
-      put(interior_, view.number, place);
-    } else if (view.reference_count > 0 || view.number >= leaves_.size() || leaves_[view.number] == ViewNode::kNone) {
-      put(leaves_, view.number, place);
-    }
     follows_interior = !view.is_leaf;
     last_depth = view.depth;
+    if (places == nullptr) return;
+    // Leaves without references may share their number with one that has some.
+    if (!view.is_leaf) {
+      put(places->interior, view.number, place - root);
+    } else if (view.reference_count > 0 || get(places->leaves, view.number) == ViewNode::kNone) {
+      put(places->leaves, view.number, place - root);
+    }
   });
 }
 
-std::uint32_t ViewTree::find(const TraversalStep& step) const {
-  switch (step.kind) {
-    case TraversalStep::Kind::node:
-    case TraversalStep::Kind::gap:
-      return step.number < interior_.size() ? interior_[step.number] : ViewNode::kNone;
-    case TraversalStep::Kind::cell:
-    case TraversalStep::Kind::leaf:
-      return step.number < leaves_.size() ? leaves_[step.number] : ViewNode::kNone;
-    case TraversalStep::Kind::test:
-      break;
+std::uint32_t ViewTree::find(const SceneStep& step) const {
+  const Places* places = &top_;
+  std::uint32_t root = 0;
+  if (step.instance != kInvalidId) {
+    if (step.instance >= instances_.size()) return ViewNode::kNone;
+    places = &objects_[instances_[step.instance].object];
+    root = instances_[step.instance].root;
   }
-  return ViewNode::kNone;
+  const TraversalStep::Kind kind = step.step.kind;
+  if (kind == TraversalStep::Kind::test) return ViewNode::kNone;
+  const bool is_leaf = kind == TraversalStep::Kind::cell || kind == TraversalStep::Kind::leaf;
+  const std::uint32_t place = get(is_leaf ? places->leaves : places->interior, step.step.number);
+  return place == ViewNode::kNone ? place : root + place;
 }
 
-void ViewTree::count(std::span<const TraversalStep> steps) {
+void ViewTree::count(std::span<const SceneStep> steps) {
   std::uint32_t at = ViewNode::kNone;
+  std::uint32_t top_leaf = ViewNode::kNone;
   bool was_come_to = false;  // a leaf that is entered after its cell was come to is visited once
-  for (const TraversalStep& step : steps) {
-    if (step.kind == TraversalStep::Kind::test) {
-      if (at != ViewNode::kNone) ++nodes_[at].tests;
+  for (const SceneStep& step : steps) {
+    if (step.step.kind == TraversalStep::Kind::test) {
+      // After steps in an object the top structure is where it was.
+      const std::uint32_t tested_in = step.instance == kInvalidId ? top_leaf : at;
+      if (tested_in != ViewNode::kNone) ++nodes_[tested_in].tests;
       continue;
     }
-    if (step.kind == TraversalStep::Kind::gap) continue;
+    if (step.step.kind == TraversalStep::Kind::gap) continue;
     const std::uint32_t place = find(step);
-    const bool is_same = was_come_to && place == at && step.kind == TraversalStep::Kind::leaf;
+    const bool is_same = was_come_to && place == at && step.step.kind == TraversalStep::Kind::leaf;
     if (place != ViewNode::kNone && !is_same) ++nodes_[place].visits;
-    was_come_to = step.kind == TraversalStep::Kind::cell;
+    was_come_to = step.step.kind == TraversalStep::Kind::cell;
     at = place;
+    if (step.instance == kInvalidId) top_leaf = place;
   }
 }
 
