@@ -8,6 +8,7 @@
 #include "grove/base/output_file.h"
 #include "grove/lab/comparison.h"
 #include "grove/lab/comparison_report.h"
+#include "html_file.h"
 #include "progress_bar.h"
 #include "session.h"
 #include "verbs.h"
@@ -45,6 +46,7 @@ int run(CompareOptions& options, Interrupts& interrupts) {
   read_lists(options);
   if (!options.json.empty()) check_writable(options.json);
   if (!options.csv.empty()) check_writable(options.csv);
+  check_html(options, PageKind::report);
   const Scene scene = load(options.scene, console);
 
   Comparison comparison;
@@ -58,6 +60,7 @@ int run(CompareOptions& options, Interrupts& interrupts) {
   fmt::print("{}", comparison_table(comparison));
   if (!options.json.empty()) write_text_file(options.json, comparison_json(comparison).dump(2) + "\n");
   if (!options.csv.empty()) write_text_file(options.csv, comparison_csv(comparison));
+  write_html(options, PageKind::report, "Structures on " + comparison.scene, comparison_json(comparison));
   const auto failed = std::ranges::count_if(comparison.rows, [](const ComparisonRow& row) { return !row.error.empty(); });
   if (failed == 0) return 0;
   std::fflush(stdout);
@@ -89,6 +92,7 @@ Verb add_compare(CLI::App& program) {
   add_threads(verb, *options);
   add_json(verb, *options, "machine and rows");
   verb.add_option("--csv", options->csv, "Write the rows to this file as comma-separated values")->type_name("FILE");
+  add_html(verb, *options, "machine and rows");
   add_quiet(verb, *options);
   verb.footer(
       "Every hit is checked against brute force (a sample of the rays on large scenes) before anything is timed. Figures are medians\n"
@@ -96,7 +100,7 @@ Verb add_compare(CLI::App& program) {
       "Examples:\n"
       "  grove compare builtin:sphereflake\n"
       "  grove compare scene.glb --structures \"bvh;bvh:leaf-size=8\" --rays primary,random --rounds 9\n"
-      "  grove compare builtin:cornell --count 100000 --threads 1 --json compare.json --csv compare.csv");
+      "  grove compare builtin:cornell --count 100000 --threads 1 --json compare.json --html compare.html");
   return {&verb, [options](Interrupts& interrupts) { return with_threads(options->threads, [&] { return run(*options, interrupts); }); }};
 }
 

@@ -68,7 +68,9 @@ Json spread_json(const Spread& spread) {
 Json comparison_json(const Comparison& comparison) {
   Json rows = Json::array();
   for (const ComparisonRow& row : comparison.rows) rows.push_back(row_json(row));
-  return {{"scene", comparison.scene},
+  return {{"format", "grove-compare"},
+          {"version", 1},
+          {"scene", comparison.scene},
           {"primitives", comparison.primitives},
           {"ray_count", comparison.ray_count},
           {"rounds", comparison.rounds},

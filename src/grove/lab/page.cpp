@@ -50,8 +50,7 @@ std::string script_json(const nlohmann::ordered_json& data) {
 void check_page_available(PageKind kind) {
   if (page_template(kind).empty())
     throw UsageError(
-        "HTML: this grove was built without the pages of its reports; install nodejs (18 or later) and npm, and build it again, or "
-        "write JSON");
+        "this grove was built without the pages of its reports; install the packages nodejs (18 or later) and npm, and build it again");
 }
 
 std::string html_page(PageKind kind, const std::string& title, const nlohmann::ordered_json& data) {
