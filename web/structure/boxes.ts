@@ -27,20 +27,25 @@ void main() {
   gl_FragColor = vec4(colour, opacity);
 }`;
 
-function material(): ShaderMaterial {
+function material(depthTest: boolean): ShaderMaterial {
   return new ShaderMaterial({
-    vertexShader, fragmentShader, uniforms: { opacity: { value: 1 } }, transparent: true, depthWrite: false, side: DoubleSide,
+    vertexShader, fragmentShader, uniforms: { opacity: { value: 1 } }, transparent: true, depthTest, depthWrite: false, side: DoubleSide,
   });
 }
 
 export class Boxes {
   readonly group = new Group();
-  private readonly lineMaterial = material();
-  private readonly faceMaterial = material();
-  private readonly lines = new LineSegments(new InstancedBufferGeometry(), this.lineMaterial);
-  private readonly glass = new Mesh(new InstancedBufferGeometry(), this.faceMaterial);
+  private readonly lineMaterial: ShaderMaterial;
+  private readonly faceMaterial: ShaderMaterial;
+  private readonly lines: LineSegments;
+  private readonly glass: Mesh;
 
-  constructor(order: number) {
+  /** Of a higher order are drawn over those of a lower. */
+  constructor(order: number, seen: "where not hidden" | "always") {
+    this.lineMaterial = material(seen !== "always");
+    this.faceMaterial = material(seen !== "always");
+    this.lines = new LineSegments(new InstancedBufferGeometry(), this.lineMaterial);
+    this.glass = new Mesh(new InstancedBufferGeometry(), this.faceMaterial);
     for (const object of [this.glass, this.lines]) {
       object.frustumCulled = false;
       object.renderOrder = order;

@@ -1,8 +1,11 @@
 // The page of `grove inspect --html`: structures over a scene in three dimensions, and rays stepped through them.
 
+import "../shared/base.css";
 import "./style.css";
 import { Color, Mesh, MeshBasicMaterial, Vector3 } from "three";
 import { readData } from "../shared/data";
+import { h } from "../shared/dom";
+import { count } from "../shared/format";
 import { Details } from "./details";
 import { LinkedCamera } from "./linked_camera";
 import { LogScale } from "./palette";
@@ -15,7 +18,6 @@ import { Space } from "./space";
 import { describeState, Stepper } from "./stepper";
 import { Store, touches } from "./store";
 import { surfaceNote, surfaceOf, TestedPrimitives } from "./surface";
-import { element, integer } from "./text";
 import { Toolbar } from "./toolbar";
 import type { Trace } from "./traces";
 import { Tree, type Metric } from "./tree";
@@ -27,7 +29,7 @@ function paneColours(): PaneColours {
   const style = getComputedStyle(document.documentElement);
   const colour = (name: string) => new Color(style.getPropertyValue(name).trim());
   return {
-    background: colour("--stage"), surface: colour("--surface"), ray: colour("--ray"), visited: colour("--visited"),
+    background: colour("--stage"), surface: colour("--mesh"), ray: colour("--ray"), visited: colour("--visited"),
     current: colour("--current"), miss: colour("--miss"), hit: colour("--hit"),
   };
 }
@@ -36,31 +38,31 @@ function header(payload: Payload): HTMLElement {
   const { machine } = payload;
   const date = payload.date.replace("T", " ").replace("Z", " UTC");
   const commit = machine.commit ? `, commit ${machine.commit.slice(0, 12)}` : "";
-  return element(
+  return h(
     "header",
     {},
-    element("h1", {}, `Structures over ${payload.scene}`),
-    element("p", {}, `${integer(payload.primitives)} primitives. `, element("code", {}, payload.command)),
-    element("p", { class: "note" }, `${machine.cpu}, ${machine.compiler}${commit}, ${date}`),
+    h("h1", {}, `Structures over ${payload.scene}`),
+    h("p", {}, `${count(payload.primitives)} primitives. `, h("code", {}, payload.command)),
+    h("p", { class: "note" }, `${machine.cpu}, ${machine.compiler}${commit}, ${date}`),
   );
 }
 
 function notes(payload: Payload, trees: Tree[]): HTMLElement {
-  const rays = integer(trees[0]!.sampledRays);
+  const rays = count(trees[0]!.sampledRays);
   const list = [
     `Visits and tests are those of ${rays} rays through the scene's camera, one a pixel of the picture; a leaf is visited when it is entered, or when its cell is come to from a neighbour.`,
-    surfaceNote(payload, integer),
+    surfaceNote(payload, count),
     ...trees.filter((tree) => tree.count < tree.total).map((tree) =>
-      `${tree.name}: ${integer(tree.count)} of ${integer(tree.total)} nodes are in this page: all to level ${tree.completeDepth}, and below it those that recorded rays come to.`),
+      `${tree.name}: ${count(tree.count)} of ${count(tree.total)} nodes are in this page: all to level ${tree.completeDepth}, and below it those that recorded rays come to.`),
     ...trees.filter((tree) => tree.sampledRays !== trees[0]!.sampledRays).map((tree) =>
-      `${tree.name}: only ${integer(tree.sampledRays)} rays, as they take many steps.`),
+      `${tree.name}: only ${count(tree.sampledRays)} rays, as they take many steps.`),
     trees.some((tree) => tree.hasTopLevel && tree.objectsShown)
       ? "The scene has instances. The structure over them is the root and what is below it; the structures of their objects hang below the root, too, one for each instance in its place." : "",
     trees.some((tree) => tree.hasTopLevel && !tree.objectsShown)
       ? "The scene has instances, and their objects too many nodes together: only the structure over the instances is shown. Steps in objects are counted in the picture alone." : "",
     trees.some((tree) => /bounds=(obb|sphere)/.test(tree.name)) ? "Oriented boxes and spheres are drawn as the axis-aligned boxes around them." : "",
   ];
-  return element("section", { class: "notes" }, element("h2", {}, "Notes"), element("ul", {}, ...list.filter(Boolean).map((text) => element("li", {}, text))));
+  return h("section", { class: "notes" }, h("h2", {}, "Notes"), h("ul", {}, ...list.filter(Boolean).map((text) => h("li", {}, text))));
 }
 
 function start(root: HTMLElement, payload: Payload): void {
@@ -113,12 +115,12 @@ function start(root: HTMLElement, payload: Payload): void {
   const treemap = new Treemap(trees, store, scaleOf);
   const toolbar = new Toolbar(store, deepest, scaleOf, trees.some((tree) => tree.hasPlanes), () => linked.goHome());
 
-  const grid = element("div", { class: "panes" }, ...panes.map((pane) => pane.element));
+  const grid = h("div", { class: "panes" }, ...panes.map((pane) => pane.element));
   grid.style.setProperty("--count", String(Math.min(panes.length, 3)));
   root.replaceChildren(
     header(payload),
     toolbar.element,
-    element("main", {}, grid, stepper.element, element("div", { class: "below" }, picture.element, details.element), treemap.element),
+    h("main", {}, grid, stepper.element, h("div", { class: "below" }, picture.element, details.element), treemap.element),
     notes(payload, trees),
   );
 

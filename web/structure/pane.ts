@@ -4,6 +4,8 @@ import {
   AmbientLight, Color, DirectionalLight, DoubleSide, Mesh, MeshLambertMaterial, Raycaster, Scene, Vector2, WebGLRenderer, type BufferGeometry,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { h } from "../shared/dom";
+import { count } from "../shared/format";
 import { Boxes } from "./boxes";
 import type { LinkedCamera } from "./linked_camera";
 import type { LogScale } from "./palette";
@@ -11,7 +13,6 @@ import { RayDrawing, type RayColours } from "./ray_drawing";
 import { stretchIn, type Ray } from "./rays";
 import { shownNodes, shownNote, type Shown } from "./shown";
 import type { Choice } from "./store";
-import { element, integer } from "./text";
 import type { Tree } from "./tree";
 
 export interface PaneColours extends RayColours {
@@ -25,13 +26,13 @@ export class Pane {
   readonly controls: OrbitControls | null = null;
   onPickNode: (node: number | null) => void = () => {};
   onPickPoint: (raycaster: Raycaster) => void = () => {};
-  private readonly canvas = element("canvas", { tabindex: "0" });
-  private readonly note = element("p", { class: "note" });
-  private readonly state = element("p", { class: "pane-step", "aria-live": "polite" });
+  private readonly canvas = h("canvas", { tabindex: "0" });
+  private readonly note = h("p", { class: "note" });
+  private readonly state = h("p", { class: "pane-step", "aria-live": "polite" });
   private readonly renderer: WebGLRenderer | null;
   private readonly scene = new Scene();
-  private readonly nodes = new Boxes(2);
-  private readonly selection = new Boxes(4);
+  private readonly nodes = new Boxes(2, "where not hidden");
+  private readonly selection = new Boxes(4, "always");
   private readonly light = new DirectionalLight(0xffffff, 2.2);
   private readonly material = new MeshLambertMaterial({ side: DoubleSide, flatShading: true });
   private shown: Shown | null = null;
@@ -43,17 +44,17 @@ export class Pane {
     private readonly linked: LinkedCamera,
   ) {
     this.canvas.setAttribute("aria-label", `${tree.name} in three dimensions: drag to turn, pinch or scroll to come closer, click to pick`);
-    this.element = element(
+    this.element = h(
       "section",
       { class: "pane" },
-      element("h2", {}, tree.name),
-      element("p", { class: "pane-figures" }, figuresOf(tree)),
-      element("div", { class: "pane-picture" }, this.canvas, this.state),
+      h("h2", {}, tree.name),
+      h("p", { class: "pane-figures" }, figuresOf(tree)),
+      h("div", { class: "pane-picture" }, this.canvas, this.state),
       this.note,
     );
     this.renderer = makeRenderer(this.canvas);
     if (!this.renderer) {
-      this.canvas.replaceWith(element("p", { class: "missing" }, "The browser cannot draw in three dimensions here (WebGL is off). All else works."));
+      this.canvas.replaceWith(h("p", { class: "missing" }, "The browser cannot draw in three dimensions here (WebGL is off). All else works."));
       return;
     }
     this.scene.add(new AmbientLight(0xffffff, 1.1), this.light, new Mesh(surface, this.material));
@@ -77,7 +78,7 @@ export class Pane {
     this.shown = shownNodes(this.tree, choice, scale);
     this.nodes.set(this.shown.boxes, this.shown.colours);
     this.setOpacities(choice);
-    this.note.textContent = shownNote(this.tree, this.shown, choice, integer);
+    this.note.textContent = shownNote(this.tree, this.shown, choice, count);
   }
 
   setOpacities(choice: Choice): void {
@@ -130,22 +131,23 @@ export class Pane {
     const raycaster = new Raycaster();
     raycaster.setFromCamera(place, this.linked.camera);
     this.onPickPoint(raycaster);
-    // A further click at the same place picks the next larger node there.
+    // A further click at the same place picks the next node there.
     const isSame = this.lastPick && Math.hypot(event.clientX - this.lastPick.x, event.clientY - this.lastPick.y) < 4;
     this.lastPick = { x: event.clientX, y: event.clientY, turn: isSame ? this.lastPick!.turn + 1 : 0 };
     const found = this.nodesAt({ origin: raycaster.ray.origin, direction: raycaster.ray.direction, distance: null });
     this.onPickNode(found.length > 0 ? found[this.lastPick.turn % found.length]! : null);
   }
 
-  /** The drawn nodes that a ray meets, the smallest first. */
+  /** The drawn nodes that a ray meets: the deepest level first, and of one level the nearest. */
   private nodesAt(ray: Ray): number[] {
     const { nodes, boxes } = this.shown ?? { nodes: [], boxes: [] };
-    const found = new Set<number>();
+    const entries = new Map<number, number>();
     nodes.forEach((node, i) => {
-      if (stretchIn(ray, boxes.slice(6 * i, 6 * i + 6))) found.add(node);
+      const stretch = stretchIn(ray, boxes.slice(6 * i, 6 * i + 6));
+      if (stretch) entries.set(node, Math.min(stretch.from, entries.get(node) ?? Infinity));
     });
-    const area = this.tree.metrics.area;
-    return [...found].sort((a, b) => area[a]! - area[b]!);
+    const { depth } = this.tree;
+    return [...entries.keys()].sort((a, b) => depth[b]! - depth[a]! || entries.get(a)! - entries.get(b)!);
   }
 }
 
@@ -160,5 +162,5 @@ function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer | null {
 function figuresOf(tree: Tree): string {
   const tests = tree.metrics.tests[0]! / tree.sampledRays;
   const steps = tree.picture.steps.reduce((sum, value) => sum + value, 0) / tree.picture.steps.length;
-  return `${integer(tree.total)} nodes, depth ${String(tree.figures.depth)}, ${steps.toFixed(1)} steps and ${tests.toFixed(1)} tests per ray`;
+  return `${count(tree.total)} nodes, depth ${String(tree.figures.depth)}, ${steps.toFixed(1)} steps and ${tests.toFixed(1)} tests per ray`;
 }

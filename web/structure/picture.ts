@@ -1,18 +1,19 @@
 // The picture that the recorded rays make: shaded, or coloured by the steps that a structure takes. A click picks a ray.
 
+import { h } from "../shared/dom";
+import { count } from "../shared/format";
 import { cssColour, LogScale } from "./palette";
 import { readBytes } from "./bytes";
 import type { Payload } from "./payload";
 import type { Rays } from "./rays";
 import type { Store } from "./store";
-import { element, integer } from "./text";
 import type { Tree } from "./tree";
 
 export class Picture {
   readonly element: HTMLElement;
-  private readonly canvas = element("canvas", { tabindex: "0", role: "application" });
-  private readonly source = element("select", { id: "picture-source" });
-  private readonly note = element("p", { class: "note" });
+  private readonly canvas = h("canvas", { tabindex: "0", role: "application" });
+  private readonly source = h("select", { id: "picture-source" });
+  private readonly note = h("p", { class: "note" });
   private readonly shades: Uint8Array;
   private readonly offset: number;
 
@@ -28,14 +29,14 @@ export class Picture {
     this.canvas.width = 2 * width;
     this.canvas.height = 2 * height;
     this.canvas.setAttribute("aria-label", "The scene as its camera sees it. Click, or move with the arrow keys, to pick a ray.");
-    this.source.append(element("option", { value: "-1" }, "the surface"));
-    trees.forEach((tree, i) => this.source.append(element("option", { value: String(i) }, `steps of ${tree.name}`)));
-    this.element = element(
+    this.source.append(h("option", { value: "-1" }, "the surface"));
+    trees.forEach((tree, i) => this.source.append(h("option", { value: String(i) }, `steps of ${tree.name}`)));
+    this.element = h(
       "section",
       { class: "card picture" },
-      element("h2", {}, "Pick a ray"),
+      h("h2", {}, "Pick a ray"),
       this.canvas,
-      element("p", { class: "row" }, element("label", { for: "picture-source" }, "Picture of "), this.source),
+      h("p", { class: "row" }, h("label", { for: "picture-source" }, "Picture of "), this.source),
       this.note,
     );
     this.source.addEventListener("change", () => this.draw());
@@ -50,7 +51,7 @@ export class Picture {
     const context = this.canvas.getContext("2d");
     if (!context) return;
     const { width, height } = this.payload.picture;
-    const small = element("canvas", { width: String(width), height: String(height) });
+    const small = h("canvas", { width: String(width), height: String(height) });
     const image = new ImageData(width, height);
     const colour = this.colours();
     for (let y = 0; y < height; ++y) {
@@ -65,7 +66,7 @@ export class Picture {
   private colours(): (x: number, y: number) => [number, number, number, number] {
     const { width } = this.payload.picture;
     const tree = this.trees[Number(this.source.value)];
-    const known = `${integer(this.rays.rays.length)} rays, one in ${this.payload.rays.stride} each way, can be picked.`;
+    const known = `${count(this.rays.rays.length)} rays, one in ${this.payload.rays.stride} each way, can be picked.`;
     if (!tree) {
       this.note.textContent = known;
       return (x, y) => {
@@ -75,7 +76,7 @@ export class Picture {
     }
     // The same scale for all, so that they can be compared.
     const scale = new LogScale(this.trees.map((each) => each.picture.steps));
-    this.note.textContent = `Dark is ${integer(scale.min)} steps (nodes and tests), bright ${integer(scale.max)}. ${known}`;
+    this.note.textContent = `Dark is ${count(scale.min)} steps (nodes and tests), bright ${count(scale.max)}. ${known}`;
     const { width: columns, height: rows, steps } = tree.picture;
     const cache = new Map<number, [number, number, number, number]>();
     return (x, y) => {

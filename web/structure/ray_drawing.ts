@@ -40,9 +40,9 @@ function distanceOfStep(tree: Tree, ray: Ray, step: Step, scale: number, tested:
 
 export class RayDrawing {
   readonly group = new Group();
-  private readonly visited = new Boxes(5);
-  private readonly current = new Boxes(6);
-  private readonly testedBox = new Boxes(7);
+  private readonly visited = new Boxes(5, "always");
+  private readonly current = new Boxes(6, "always");
+  private readonly testedBox = new Boxes(7, "always");
   private readonly whole = new Line(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.7, depthTest: false }));
   private readonly travelled = new Mesh(new CylinderGeometry(1, 1, 1, 8), new MeshBasicMaterial({ depthTest: false, transparent: true }));
   private readonly front = new Mesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({ depthTest: false, transparent: true }));

@@ -1,8 +1,9 @@
 // The bar that steps the picked ray through all structures, forwards and backwards.
 
+import { h } from "../shared/dom";
+import { count, number } from "../shared/format";
 import type { Store } from "./store";
 import type { TestedPrimitives } from "./surface";
-import { element, integer, short } from "./text";
 import type { Step, Trace } from "./traces";
 import type { Tree } from "./tree";
 
@@ -12,38 +13,38 @@ const kindNames = { node: "steps through node", cell: "comes to the cell of leaf
 export function describeStep(tree: Tree, step: Step, tested: TestedPrimitives): string {
   if (step.kind === "test") {
     if (tested.kind(step.tested) === "instance") {
-      const outcome = step.hit === null ? "without a closer hit" : `with a hit at ${short(step.hit)}`;
-      return `goes into ${tested.name(step.tested, integer)}, to come back ${outcome}`;
+      const outcome = step.hit === null ? "without a closer hit" : `with a hit at ${number(step.hit)}`;
+      return `goes into ${tested.name(step.tested, count)}, to come back ${outcome}`;
     }
-    const outcome = step.hit === null ? "no closer hit" : `hit at ${short(step.hit)}, the closest yet`;
-    return `tests ${tested.name(step.tested, integer)}: ${outcome}`;
+    const outcome = step.hit === null ? "no closer hit" : `hit at ${number(step.hit)}, the closest yet`;
+    return `tests ${tested.name(step.tested, count)}: ${outcome}`;
   }
   const level = `level ${tree.depth[step.node] ?? "?"}`;
-  const size = tree.isLeaf[step.node] ? `, ${integer(tree.metrics.references[step.node] ?? 0)} references` : "";
-  return `${kindNames[step.kind]} ${integer(step.node)} (${level}${size})`;
+  const size = tree.isLeaf[step.node] ? `, ${count(tree.metrics.references[step.node] ?? 0)} references` : "";
+  return `${kindNames[step.kind]} ${count(step.node)} (${level}${size})`;
 }
 
 /** What the walk has come to after some steps, in one line. */
 export function describeState(tree: Tree, trace: Trace, taken: number, tested: TestedPrimitives): string {
-  const count = trace.steps.length;
-  if (count === 0) return "The ray misses the structure: no step.";
-  const done = Math.min(taken, count);
+  const total = trace.steps.length;
+  if (total === 0) return "The ray misses the structure: no step.";
+  const done = Math.min(taken, total);
   const tests = trace.steps.slice(0, done).filter((step) => step.kind === "test").length;
   const leaves = trace.steps.slice(0, done).filter((step) => step.kind === "leaf").length;
   const so = `${done - tests - leaves} nodes, ${leaves} leaves, ${tests} tests so far`;
-  if (done === 0) return `Before the first of ${integer(count)} steps`;
-  const end = done === count ? (trace.isCut ? " (further steps are not kept)" : " (the end)") : "";
+  if (done === 0) return `Before the first of ${count(total)} steps`;
+  const end = done === total ? (trace.isCut ? " (further steps are not kept)" : " (the end)") : "";
   const hit = trace.steps.slice(0, done).filter((step) => step.hit !== null).at(-1)?.hit;
-  const found = hit == null ? "nothing hit yet" : `closest hit at ${short(hit)}`;
-  return `${integer(done)}/${integer(count)}${end}: ${describeStep(tree, trace.steps[done - 1]!, tested)}. ${so}, ${found}`;
+  const found = hit == null ? "nothing hit yet" : `closest hit at ${number(hit)}`;
+  return `${count(done)}/${count(total)}${end}: ${describeStep(tree, trace.steps[done - 1]!, tested)}. ${so}, ${found}`;
 }
 
 export class Stepper {
   readonly element: HTMLElement;
-  private readonly slider = element("input", { type: "range", min: "0", max: "0", value: "0", "aria-label": "Steps taken" });
-  private readonly count = element("output", {});
+  private readonly slider = h("input", { type: "range", min: "0", max: "0", value: "0", "aria-label": "Steps taken" });
+  private readonly count = h("output", {});
   private readonly buttons: HTMLButtonElement[] = [];
-  private readonly hint = element("p", { class: "note" }, "Pick a ray in the picture, or in a view with “click picks a ray”, to step it through the structures.");
+  private readonly hint = h("p", { class: "note" }, "Pick a ray in the picture, or in a view with “click picks a ray”, to step it through the structures.");
   private readonly play: HTMLButtonElement;
   private timer: number | null = null;
   private last = 0;
@@ -53,7 +54,7 @@ export class Stepper {
     lookAside: () => void,
   ) {
     const button = (sign: string, name: string, act: () => void) => {
-      const result = element("button", { type: "button", title: name, "aria-label": name }, sign);
+      const result = h("button", { type: "button", title: name, "aria-label": name }, sign);
       result.addEventListener("click", act);
       this.buttons.push(result);
       return result;
@@ -67,10 +68,10 @@ export class Stepper {
     const aside = button("From aside", "Look at the ray from aside", lookAside);
     aside.classList.add("wide");
     this.slider.addEventListener("input", () => this.go(Number(this.slider.value)));
-    this.element = element(
+    this.element = h(
       "section",
       { class: "card stepper", "aria-label": "Steps of the ray" },
-      element("div", { class: "row" }, first, previous, this.play, next, end, this.slider, this.count, aside),
+      h("div", { class: "row" }, first, previous, this.play, next, end, this.slider, this.count, aside),
       this.hint,
     );
     document.addEventListener("keydown", (event) => this.onKey(event));
@@ -90,7 +91,7 @@ export class Stepper {
   show(): void {
     const { step } = this.store.choice;
     this.slider.value = String(step);
-    this.count.textContent = `${integer(step)} / ${integer(this.last)}`;
+    this.count.textContent = `${count(step)} / ${count(this.last)}`;
     if (step >= this.last) this.stop();
   }
 

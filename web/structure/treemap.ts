@@ -4,9 +4,10 @@ import { TreemapChart } from "echarts/charts";
 import { TooltipComponent } from "echarts/components";
 import * as echarts from "echarts/core";
 import { CanvasRenderer } from "echarts/renderers";
+import { h } from "../shared/dom";
+import { compact, count, number } from "../shared/format";
 import { cssColour, LogScale } from "./palette";
 import type { Store } from "./store";
-import { element, integer, short } from "./text";
 import type { Metric, Tree } from "./tree";
 
 echarts.use([TreemapChart, TooltipComponent, CanvasRenderer]);
@@ -24,13 +25,13 @@ interface Tile {
 
 export class Treemap {
   readonly element: HTMLElement;
-  private readonly box = element("div", { class: "treemap-box", role: "img" });
-  private readonly which = element("select", { id: "treemap-structure" });
-  private readonly size = element("select", { id: "treemap-size" }, element("option", { value: "references" }, "references"), element("option", { value: "tests" }, "tests"));
-  private readonly up = element("button", { type: "button", class: "wide" }, "Out");
-  private readonly down = element("button", { type: "button", class: "wide" }, "Into the selected node");
-  private readonly whole = element("button", { type: "button", class: "wide" }, "All");
-  private readonly note = element("p", { class: "note" });
+  private readonly box = h("div", { class: "treemap-box", role: "img" });
+  private readonly which = h("select", { id: "treemap-structure" });
+  private readonly size = h("select", { id: "treemap-size" }, h("option", { value: "references" }, "references"), h("option", { value: "tests" }, "tests"));
+  private readonly up = h("button", { type: "button", class: "wide" }, "Out");
+  private readonly down = h("button", { type: "button", class: "wide" }, "Into the selected node");
+  private readonly whole = h("button", { type: "button", class: "wide" }, "All");
+  private readonly note = h("p", { class: "note" });
   private readonly chart: echarts.ECharts;
   private root = 0;
   private inMap = new Set<number>();
@@ -40,16 +41,16 @@ export class Treemap {
     private readonly store: Store,
     private readonly scaleOf: (metric: Metric) => LogScale,
   ) {
-    trees.forEach((tree, i) => this.which.append(element("option", { value: String(i) }, tree.name)));
-    this.element = element(
+    trees.forEach((tree, i) => this.which.append(h("option", { value: String(i) }, tree.name)));
+    this.element = h(
       "section",
       { class: "card treemap" },
-      element("h2", {}, "Map of the tree"),
-      element(
+      h("h2", {}, "Map of the tree"),
+      h(
         "p",
         { class: "row" },
-        element("label", { for: "treemap-structure" }, "Structure "), this.which,
-        element("label", { for: "treemap-size" }, "Size by "), this.size,
+        h("label", { for: "treemap-structure" }, "Structure "), this.which,
+        h("label", { for: "treemap-size" }, "Size by "), this.size,
         this.down, this.up, this.whole,
       ),
       this.box,
@@ -103,7 +104,7 @@ export class Treemap {
         tooltip: {
           formatter: (item: { data?: Tile }) => (item.data ? this.describe(tree, item.data.node) : ""),
           confine: true,
-          backgroundColor: style.getPropertyValue("--card").trim(),
+          backgroundColor: style.getPropertyValue("--surface").trim(),
           borderColor: style.getPropertyValue("--line").trim(),
           textStyle: { color: text },
         },
@@ -118,7 +119,8 @@ export class Treemap {
             visibleMin: 1,
             label: {
               show: true, color: "#fff", textBorderColor: "#000", textBorderWidth: 2, fontSize: 10,
-              formatter: (item: { data?: unknown }) => short((item.data as Tile).value),
+              ellipsis: "",
+              formatter: (item: { data?: unknown }) => compact((item.data as Tile).value),
             },
             upperLabel: { show: false },
             levels: Array.from({ length: 24 }, (_, level) => ({ itemStyle: { gapWidth: level < 4 ? 3 - level / 2 : 1, borderWidth: level < 2 ? 2 : 1 } })),
@@ -127,8 +129,8 @@ export class Treemap {
       },
       { notMerge: true },
     );
-    const where = this.root === 0 ? "the whole tree" : `node ${integer(this.root)} at level ${tree.depth[this.root]} and what is below`;
-    this.note.textContent = `${where[0]!.toUpperCase()}${where.slice(1)}, ${integer(this.inMap.size)} nodes; coloured by ${metric}.`;
+    const where = this.root === 0 ? "the whole tree" : `node ${count(this.root)} at level ${tree.depth[this.root]} and what is below`;
+    this.note.textContent = `${where[0]!.toUpperCase()}${where.slice(1)}, ${count(this.inMap.size)} nodes; coloured by ${metric}.`;
   }
 
   private goTo(node: number): void {
@@ -152,7 +154,7 @@ export class Treemap {
     const scale = this.scaleOf(this.store.choice.metric);
     const make = (node: number): Tile => {
       const place = scale.place(colours[node]!);
-      const tile: Tile = { name: integer(node), node, value: sizes[node]!, itemStyle: { color: place === null ? "#808080" : cssColour(place) } };
+      const tile: Tile = { name: count(node), node, value: sizes[node]!, itemStyle: { color: place === null ? "#808080" : cssColour(place) } };
       if (node === selected) Object.assign(tile.itemStyle, { borderColor: "#ff3d7f", borderWidth: 3 });
       else tile.itemStyle.borderColor = tile.itemStyle.color;
       return tile;
@@ -177,8 +179,8 @@ export class Treemap {
   private describe(tree: Tree, node: number): string {
     const { visits, tests, references } = tree.metrics;
     return (
-      `<b>node ${integer(node)}</b>, level ${tree.depth[node]}${tree.isLeaf[node] ? ", a leaf" : ""}<br>` +
-      `${integer(references[node]!)} references, ${integer(visits[node]!)} visits, ${short(tests[node]!)} tests`
+      `<b>node ${count(node)}</b>, level ${tree.depth[node]}${tree.isLeaf[node] ? ", a leaf" : ""}<br>` +
+      `${count(references[node]!)} references, ${count(visits[node]!)} visits, ${number(tests[node]!)} tests`
     );
   }
 }

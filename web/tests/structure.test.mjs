@@ -13,6 +13,9 @@ after(() => browser?.close());
 const folder = temporaryFolder();
 const made = new Map();
 
+/** What goes wrong in a page, but for what Chromium says of pictures read back from a graphics card that it plays itself. */
+const wrong = (problems) => problems.filter((problem) => !/GL Driver Message .*ReadPixels/.test(problem));
+
 /** The page that the command writes; each is made once. */
 function pageOf(scene, structures) {
   const key = `${scene} ${structures}`;
@@ -41,7 +44,7 @@ async function pickRay(page, x = 0.5, y = 0.6) {
 test("a page without data says so", { skip: !browser }, async () => {
   const { page, problems, close } = await openPage(browser, pageWith("structure", "Nothing", "nothing"));
   assert.match(await page.textContent("#view"), /nothing to show/);
-  assert.deepEqual(problems, []);
+  assert.deepEqual(wrong(problems), []);
   await close();
 });
 
@@ -62,7 +65,7 @@ test("structures stand side by side and change with levels and colours", { skip:
   // The first handle cannot pass the last.
   await page.getByLabel("First level shown").fill("14");
   assert.equal(await page.textContent("#levels"), "14");
-  assert.deepEqual(problems, []);
+  assert.deepEqual(wrong(problems), []);
   await close();
 });
 
@@ -94,7 +97,7 @@ test("a ray is stepped forwards and backwards through all structures", { skip: !
   // It plays by itself.
   await page.getByRole("button", { name: "Play" }).click();
   await page.waitForFunction(() => Number(document.querySelector(".stepper output").textContent.split(" ")[0]) > 3);
-  assert.deepEqual(problems, []);
+  assert.deepEqual(wrong(problems), []);
   await close();
 });
 
@@ -134,8 +137,7 @@ test("nodes are picked in the view and in the map", { skip: !browser }, async ()
   await page.mouse.click(area.x + area.width * 0.3, area.y + area.height * 0.5);
   assert.doesNotMatch(await details.textContent(), /100 % of the root/, "a tile does not select its node");
   await screenshot(page, "structure-desktop");
-  await page.getByRole("button", { name: "Into the selected node" }).click({ trial: true }).catch(() => {});
-  assert.deepEqual(problems, []);
+  assert.deepEqual(wrong(problems), []);
   await close();
 });
 
@@ -147,7 +149,7 @@ test("a ray is picked in the view", { skip: !browser }, async () => {
   // Not every place shows a surface.
   for (const [x, y] of [[0.5, 0.5], [0.5, 0.6], [0.4, 0.55], [0.6, 0.7]]) await canvas.click({ position: { x: box.width * x, y: box.height * y } });
   assert.match(await page.locator(".stepper output").textContent(), /^0 \/ [1-9]/);
-  assert.deepEqual(problems, []);
+  assert.deepEqual(wrong(problems), []);
   await close();
 });
 
@@ -160,7 +162,7 @@ test("on a phone nothing is wider than the screen, and touching steps a ray", { 
   await page.getByRole("button", { name: "Last step" }).tap();
   await screenshot(page, "structure-phone");
   assert.ok((await overflow(page)) <= 0, `${await overflow(page)} pixels too wide with a ray`);
-  assert.deepEqual(problems, []);
+  assert.deepEqual(wrong(problems), []);
   await close();
 });
 
@@ -171,6 +173,6 @@ test("it is dark where the reader wants that", { skip: !browser }, async () => {
   await pickRay(page, 0.5, 0.5);
   await page.keyboard.press("End");
   await screenshot(page, "structure-dark");
-  assert.deepEqual(problems, []);
+  assert.deepEqual(wrong(problems), []);
   await close();
 });
