@@ -110,7 +110,9 @@ Verb add_reproduce(CLI::App& program) {
   add_threads(verb, *options);
   add_json(verb, *options,
            "claims, verdicts and figures; an interrupted run goes on from it (default: reproduce.json, with --quick reproduce-quick.json)");
-  verb.add_option("--markdown", options->markdown, "Write the findings to this file as a document; what is written by hand outside of its marks stays")->type_name("FILE");
+  verb.add_option("--markdown", options->markdown,
+                  "Write the findings to this file as a document; what is written by hand outside of its marks stays")
+      ->type_name("FILE");
   add_html(verb, *options, "claims, verdicts and figures");
   add_quiet(verb, *options);
   verb.footer(

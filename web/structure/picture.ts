@@ -41,7 +41,10 @@ export class Picture {
     );
     this.source.addEventListener("change", () => this.draw());
     // The mouse leaves the arrow keys to the steps; who comes by keyboard moves the ray with them.
-    this.canvas.addEventListener("mousedown", (event) => event.preventDefault());
+    this.canvas.addEventListener("mousedown", (event) => {
+      event.preventDefault();
+      if (document.activeElement instanceof HTMLElement) document.activeElement.blur();
+    });
     this.canvas.addEventListener("click", (event) => this.pickAt(event));
     this.canvas.addEventListener("keydown", (event) => this.move(event));
     this.draw();

@@ -72,7 +72,7 @@ class Grid {
     const float longest = std::max({extent.x, extent.y, extent.z});
     for (int axis = 0; axis < 3; ++axis) {
       // Cells are cubes; steps are of the box.
-      const double cells = longest > 0.0F ? double{size} * double{extent[axis]} / double{longest} : 0.0;
+      const double cells = longest > 0.0F ? static_cast<double>(size) * double{extent[axis]} / double{longest} : 0.0;
       cells_[axis] = std::max(1.0, cells);
     }
   }
@@ -80,8 +80,8 @@ class Grid {
   [[nodiscard]] std::uint64_t cell(const Point& point) const {
     std::uint64_t cell = 0;
     for (int axis = 0; axis < 3; ++axis)
-      cell = cell << 20U |
-             static_cast<std::uint64_t>(double{point[static_cast<std::size_t>(axis)]} / double{Quantiser::kSteps} * (cells_[axis] - 1e-6));
+      cell = cell << 20U | static_cast<std::uint64_t>(static_cast<double>(point[static_cast<std::size_t>(axis)]) /
+                                                      double{Quantiser::kSteps} * (cells_[axis] - 1e-6));
     return cell;
   }
 
