@@ -27,7 +27,8 @@ function pageOf(scene, structures) {
   return made.get(key);
 }
 
-const three = () => pageOf("builtin:rings", "bvh;kdtree;octree:walk=neighbour");
+// Small, as tests draw without a graphics card.
+const three = () => pageOf("builtin:rings?triangles=4000", "bvh;kdtree;octree:walk=neighbour");
 
 /** The colours of a canvas, as a text that differs when the picture does. Drawn once more, as what a browser has shown may be gone. */
 function pictureOf(page, index = 0) {
@@ -102,11 +103,11 @@ test("a ray is stepped forwards and backwards through all structures", { skip: !
 });
 
 test("neighbour walks come to cells, the others go down", { skip: !browser }, async () => {
-  const { page, close } = await openPage(browser, three());
+  const { page, close } = await openPage(browser, three(), { viewport: { width: 600, height: 500 } });
   await pickRay(page);
   const seen = [new Set(), new Set(), new Set()];
   const last = Number((await page.locator(".stepper output").textContent()).split("/")[1].replaceAll(",", ""));
-  for (let step = 1; step <= last; ++step) {
+  for (let step = 1; step <= Math.min(last, 40); ++step) {
     await page.keyboard.press("ArrowRight");
     const texts = await page.locator(".pane-step").allTextContents();
     texts.forEach((text, i) => seen[i].add(text.match(/: (\w+ \w+ \w+)/)?.[1]));
@@ -169,7 +170,7 @@ test("on a phone nothing is wider than the screen, and touching steps a ray", { 
 test("it is dark where the reader wants that", { skip: !browser }, async () => {
   const { page, problems, close } = await openPage(browser, pageOf("builtin:spheres?primitives=2000", "bvh:arity=8"), { colorScheme: "dark" });
   const background = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
-  assert.match(background, /rgb\(1\d, 2\d, 2\d\)/);
+  assert.ok(background.match(/\d+/g).every((channel) => Number(channel) < 64), background);
   await pickRay(page, 0.5, 0.5);
   await page.keyboard.press("End");
   await screenshot(page, "structure-dark");
