@@ -147,7 +147,9 @@ function start(root: HTMLElement, payload: Payload): void {
     if (touches(changed, "from", "to", "metric", "drawAs")) showNodes();
     if (touches(changed, "nodeOpacity", "sceneOpacity", "ray")) panes.forEach((pane) => pane.setOpacities(store.choice));
     if (changed.has("ray")) {
-      const { ray } = store.choice;
+      const { ray, sceneOpacity } = store.choice;
+      // A ray goes on inside of things.
+      if (sceneOpacity === 1 && traces.length === 0) store.set({ sceneOpacity: 0.5 });
       traces = ray === null ? [] : trees.map((tree) => tree.traces.trace(ray));
       stepper.setLength(ray === null ? null : Math.max(...traces.map((trace) => trace.steps.length)));
       picture.draw();

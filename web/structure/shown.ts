@@ -71,15 +71,18 @@ export function shownNote(tree: Tree, shown: Shown, choice: Choice, format: (val
   return notes.join(" ");
 }
 
-/** The level to begin with: in each structure the deepest that is there as a whole and has few enough nodes to be told apart; between them the mean. */
+/** The level to begin with: in each structure the deepest that is there as a whole and has few enough nodes to be told apart, below the first few; between
+ * them the mean. */
 export function firstLevel(trees: Tree[]): number {
   const goodCount = 160;
+  const fewNodes = 8;
   const best = trees.map((tree) => {
     const counts = new Array<number>(tree.maxDepth + 1).fill(0);
     for (let i = 0; i < tree.count; ++i) ++counts[tree.depth[i]!]!;
     let level = 0;
     for (let depth = 0; depth <= tree.completeDepth && counts[depth]! <= goodCount; ++depth) level = depth;
-    return level;
+    const next = counts[level + 1] ?? 0;
+    return counts[level]! < fewNodes && next > 0 && next <= mostDrawn && level < tree.completeDepth ? level + 1 : level;
   });
   return Math.round(best.reduce((sum, level) => sum + level, 0) / best.length);
 }

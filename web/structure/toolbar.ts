@@ -87,6 +87,9 @@ export class Toolbar {
   private opacity(name: string, key: "nodeOpacity" | "sceneOpacity"): HTMLElement {
     const slider = h("input", { type: "range", min: "0", max: "1", step: "0.05", value: String(this.store.choice[key]), id: `opacity-${key}` });
     slider.addEventListener("input", () => this.store.set({ [key]: Number(slider.value) }));
+    this.store.onChange((changed) => {
+      if (changed.has(key)) slider.value = String(this.store.choice[key]);
+    });
     return h("div", { class: "field small" }, h("label", { class: "name", for: slider.id }, `${name}’ opacity`.replace("e’", "e’s")), slider);
   }
 }

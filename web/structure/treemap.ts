@@ -34,6 +34,8 @@ export class Treemap {
   private readonly note = h("p", { class: "note" });
   private readonly chart: echarts.ECharts;
   private root = 0;
+  /** Children of the root that have no tile. */
+  private leftOut = 0;
   private inMap = new Set<number>();
 
   constructor(
@@ -130,7 +132,7 @@ export class Treemap {
       { notMerge: true },
     );
     const where = this.root === 0 ? "the whole tree" : `node ${count(this.root)} at level ${tree.depth[this.root]} and what is below`;
-    this.note.textContent = `${where[0]!.toUpperCase()}${where.slice(1)}, ${count(this.inMap.size)} nodes; coloured by ${metric}.`;
+    this.note.textContent = `${where[0]!.toUpperCase()}${where.slice(1)}, ${count(this.inMap.size)} nodes; coloured by ${metric}.${this.leftOut > 0 ? ` ${count(this.leftOut)} smaller children have no tile.` : ""}`;
   }
 
   private goTo(node: number): void {
@@ -161,12 +163,17 @@ export class Treemap {
     };
     const root = make(this.root);
     this.inMap = new Set([this.root]);
+    this.leftOut = 0;
     let level = [root];
     while (level.length > 0 && this.inMap.size < mostTiles) {
       const next: Tile[] = [];
       for (const tile of level) {
-        const children = [...tree.children[tile.node]!].filter((child) => sizes[child]! > 0);
-        if (children.length === 0 || this.inMap.size + children.length > mostTiles) continue;
+        let children = [...tree.children[tile.node]!].filter((child) => sizes[child]! > 0);
+        if (tile === root && children.length > mostTiles) {
+          this.leftOut = children.length - mostTiles;
+          children = children.sort((a, b) => sizes[b]! - sizes[a]!).slice(0, mostTiles);
+        }
+        if (children.length === 0 || this.inMap.size + children.length > mostTiles + 1) continue;
         tile.children = children.map(make);
         for (const child of children) this.inMap.add(child);
         next.push(...tile.children);
