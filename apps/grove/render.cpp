@@ -93,7 +93,7 @@ int run(RenderOptions& options, Interrupts& interrupts) {
   const Interrupts::Graceful graceful(interrupts);
   RenderResult result;
   {
-    ProgressBar bar("rendering", "samples", options.settings.samples_per_pixel, options.quiet);
+    ProgressBar bar("rendering", "samples", 1.0, options.quiet);
     result = render(scene, built.accelerator, options.settings, bar.reporter(interrupts.token()));
   }
   for (const std::string& warning : result.warnings) console.warn(warning);
@@ -104,7 +104,7 @@ int run(RenderOptions& options, Interrupts& interrupts) {
   write_images(options, result, console);
   if (!options.json.empty()) write_figures(options, result, built.statistics, scene, spec);
   if (!result.interrupted) return 0;
-  fmt::print(stderr, "grove render: interrupted; wrote what was finished, {:.1f} % of the pixels\n", 100.0 * result.completed_fraction);
+  fmt::print(stderr, "grove render: interrupted; wrote what was finished, {:.1f} % of the samples\n", 100.0 * result.completed_fraction);
   return kInterrupted;
 }
 
@@ -148,7 +148,7 @@ Verb add_render(CLI::App& program) {
   add_json(verb, *options, "the figures");
   add_quiet(verb, *options);
   verb.footer(
-      "Ctrl-C writes what is finished and exits with 130.\n\n"
+      "Ctrl-C writes the picture with the samples that it has and exits with 130.\n\n"
       "Examples:\n"
       "  grove render builtin:cornell -o cornell.png\n"
       "  grove render scene.glb -o scene.exr -o scene.png --spp 256 --width 1920 --height 1080\n"
