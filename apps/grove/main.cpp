@@ -62,7 +62,7 @@ int run(int argument_count, char** arguments) {
   CLI::App program("Grove: acceleration structures for ray tracing, built, traced, compared and rendered with.", "grove");
   program.set_version_flag("--version", "grove " GROVE_VERSION);
   program.require_subcommand(1);
-  const std::array verbs{add_render(program),  add_trace(program),     add_compare(program),    add_inspect(program),
+  const std::array verbs{add_render(program),  add_merge(program),     add_trace(program),      add_compare(program),  add_inspect(program),
                          add_animate(program), add_reproduce(program), add_structures(program), add_try_build(program)};
   program.footer(
       "'grove VERB --help' tells all about a verb. Exit codes: 0 done, 1 the work failed, 2 the command was wrong, 130 interrupted.\n\n"

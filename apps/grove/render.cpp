@@ -2,17 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <fstream>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "grove/base/error.h"
+#include "checkpoint.h"
 #include "grove/base/output_file.h"
 #include "grove/lab/structure_report.h"
 #include "grove/lab/text_table.h"
-#include "grove/render/image/write_exr.h"
-#include "grove/render/image/write_png.h"
+#include "picture_files.h"
+#include "picture_part_options.h"
 #include "progress_bar.h"
 #include "session.h"
 #include "verbs.h"
@@ -25,40 +24,24 @@ constexpr std::uint64_t kMostSamples = 1 << 20;
 constexpr std::uint64_t kMostDepth = 1024;
 
 struct RenderOptions : CommonOptions {
-  std::vector<std::string> images;
+  std::vector<std::string> pictures;
   std::string integrator = "path";
   RenderSettings settings;
   DisplaySettings display;
+  std::string tile;
+  std::string samples;
+  std::filesystem::path checkpoint;
+  double checkpoint_interval = 60.0;
+  bool restarts = false;
 };
 
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return extension;
-}
-
-void check_outputs(const RenderOptions& options) {
-  for (const std::string& image : options.images) {
-    const std::string extension = extension_of(image);
-    if (extension != ".exr" && extension != ".png") {
-      throw UsageError("--output: '" + image + "' has an unknown extension; images are written as .exr (linear) or .png (for the eye)");
-    }
-  }
-  for (const std::string& image : options.images) check_writable(image);
+// Whatever can be found wrong before the scene is read.
+void check_command(RenderOptions& options) {
+  options.settings.integrator = integrator_from_name(options.integrator);
+  if (!options.tile.empty()) parse_tile(options.tile, options.settings.part);
+  if (!options.samples.empty()) parse_samples(options.samples, options.settings.samples_per_pixel, options.settings.part);
+  check_pictures(options.pictures);
   if (!options.json.empty()) check_writable(options.json);
-}
-
-void write_images(const RenderOptions& options, const RenderResult& result, const Console& console) {
-  for (const std::string& image : options.images) {
-    console.status("writing " + image);
-    if (extension_of(image) == ".exr") {
-      write_exr(result.film, image);
-    } else {
-      write_png(result, options.display, image);
-    }
-    console.say("wrote      " + image);
-  }
 }
 
 void write_figures(const RenderOptions& options, const RenderResult& result, const StructureStatistics& statistics, const Scene& scene,
@@ -78,33 +61,46 @@ void write_figures(const RenderOptions& options, const RenderResult& result, con
   json["mrays_per_s"] = result.seconds > 0.0 ? 1e-6 * static_cast<double>(result.rays_traced) / result.seconds : 0.0;
   json["completed_fraction"] = result.completed_fraction;
   json["interrupted"] = result.interrupted;
-  json["images"] = options.images;
+  json["tiles"] = {{"share", result.part.share}, {"of", result.part.share_count}};
+  json["samples"] = {{"first", result.part.first_sample}, {"end", result.part.end_sample}};
+  json["images"] = options.pictures;
   write_text_file(options.json, json.dump(2) + "\n");
+}
+
+std::string samples_text(const RenderOptions& options, const PicturePart& part) {
+  const std::uint32_t samples = options.settings.samples_per_pixel;
+  if (!part.is_whole(samples)) return fmt::format("{} of {}", part.text(), samples);
+  return fmt::format("{} sample{} each", samples, samples == 1 ? "" : "s");
 }
 
 int run(RenderOptions& options, Interrupts& interrupts) {
   const Console console(options.quiet);
   const std::string spec = canonical_spec(options.structure);
-  options.settings.integrator = integrator_from_name(options.integrator);
-  check_outputs(options);
+  check_command(options);
+  Checkpoint checkpoint(options.checkpoint, options.restarts, options.checkpoint_interval);
 
   const Scene scene = load(options.scene, console);
   const BuiltStructure built = build_structure(scene, spec, console);
+  FilmHeader header;
+  if (checkpoint.is_on() || has_film(options.pictures)) header = film_header(options.scene, scene, built.accelerator, options.settings);
   const Interrupts::Graceful graceful(interrupts);
   RenderResult result;
   {
-    ProgressBar bar("rendering", "samples", options.settings.samples_per_pixel, options.quiet);
-    result = render(scene, built.accelerator, options.settings, bar.reporter(interrupts.token()));
+    RenderCheckpoints checkpoints = checkpoint.begin(header, console);
+    ProgressBar bar("rendering", "samples", 1.0, options.quiet);
+    result = render(scene, built.accelerator, options.settings, bar.reporter(interrupts.token()), std::move(checkpoints));
   }
   for (const std::string& warning : result.warnings) console.warn(warning);
-  console.say(fmt::format("picture    {} x {} pixels, {} sample{} each, {} rays in {}: {} Mrays/s", result.film.width(),
-                          result.film.height(), options.settings.samples_per_pixel, options.settings.samples_per_pixel == 1 ? "" : "s",
-                          with_separators(result.rays_traced), duration(result.seconds),
+  console.say(fmt::format("picture    {} x {} pixels, {}, {} rays in {}: {} Mrays/s", result.film.width(), result.film.height(),
+                          samples_text(options, result.part), with_separators(result.rays_traced), duration(result.seconds),
                           short_number(1e-6 * static_cast<double>(result.rays_traced) / result.seconds)));
-  write_images(options, result, console);
+  checkpoint.finish(result, console);
+  write_pictures(options.pictures, result, options.display, header, console);
   if (!options.json.empty()) write_figures(options, result, built.statistics, scene, spec);
+  checkpoint.rethrow_failure();
   if (!result.interrupted) return 0;
-  fmt::print(stderr, "grove render: interrupted; wrote what was finished, {:.1f} % of the pixels\n", 100.0 * result.completed_fraction);
+  fmt::print(stderr, "grove render: interrupted; wrote what was finished, {:.1f} % of the samples{}\n", 100.0 * result.completed_fraction,
+             checkpoint.is_on() ? "; the same command goes on from " + options.checkpoint.string() : "");
   return kInterrupted;
 }
 
@@ -115,9 +111,10 @@ Verb add_render(CLI::App& program) {
   CLI::App& verb = *program.add_subcommand("render", "Path-trace a scene to an image");
   RenderSettings& settings = options->settings;
   add_scene(verb, *options);
-  verb.add_option("-o,--output", options->images, "Image to write, .exr (linear, with albedo and normal layers) or .png; may be repeated")
+  verb.add_option("-o,--output", options->pictures,
+                  "Picture to write: .exr (linear, with albedo and normal layers), .png, or .film (for 'grove merge'); may be repeated")
       ->required()
-      ->type_name("IMAGE")
+      ->type_name("PICTURE")
       ->allow_extra_args(false);
   add_structure(verb, *options);
   in_range(verb.add_option("--spp", settings.samples_per_pixel, "Samples per pixel")->type_name("N")->capture_default_str(),
@@ -145,13 +142,30 @@ Verb add_render(CLI::App& program) {
                ->type_name("STOPS")
                ->capture_default_str(),
            -64.0, 64.0);
+  verb.add_option("--tile", options->tile,
+                  "Render the i-th of N shares of the picture's tiles, 1/N to N/N; 'grove merge' puts films together")
+      ->type_name("i/N");
+  verb.add_option("--samples", options->samples, "Render samples a to b - 1 of each pixel, of the --spp that there are from 0 on")
+      ->type_name("a:b");
+  CLI::Option* const checkpoint = verb.add_option("--checkpoint", options->checkpoint,
+                                                  "Save the film to this file at intervals, when interrupted and at the end; where "
+                                                  "it is there already, go on from it")
+                                      ->type_name("FILE");
+  in_range(verb.add_option("--checkpoint-interval", options->checkpoint_interval, "Seconds from one saving to the next")
+               ->type_name("SECONDS")
+               ->capture_default_str()
+               ->needs(checkpoint),
+           0.1, 1e6);
+  verb.add_flag("--restart", options->restarts, "Do not go on from the checkpoint file, but replace it")->needs(checkpoint);
   add_json(verb, *options, "the figures");
   add_quiet(verb, *options);
   verb.footer(
-      "Ctrl-C writes what is finished and exits with 130.\n\n"
+      "Ctrl-C writes the picture with the samples that it has and exits with 130; with --checkpoint, the same command goes on.\n\n"
       "Examples:\n"
       "  grove render builtin:cornell -o cornell.png\n"
       "  grove render scene.glb -o scene.exr -o scene.png --spp 256 --width 1920 --height 1080\n"
+      "  grove render scene.glb -o scene.exr --spp 4096 --checkpoint scene.film\n"
+      "  grove render scene.glb -o part2.film --tile 2/4\n"
       "  grove render builtin:sphereflake -o cost.png --integrator cost --structure bvh --spp 4");
   return {&verb, [options](Interrupts& interrupts) { return with_threads(options->threads, [&] { return run(*options, interrupts); }); }};
 }

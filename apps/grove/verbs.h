@@ -21,6 +21,7 @@ struct Verb {
 
 // Each adds its verb to the program; one source file a verb.
 [[nodiscard]] Verb add_render(CLI::App& program);
+[[nodiscard]] Verb add_merge(CLI::App& program);
 [[nodiscard]] Verb add_trace(CLI::App& program);
 [[nodiscard]] Verb add_compare(CLI::App& program);
 [[nodiscard]] Verb add_animate(CLI::App& program);

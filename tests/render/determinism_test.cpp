@@ -4,24 +4,12 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <cstring>
-
 #include "grove/registry/registry.h"
+#include "same_bits.h"
 #include "test_scenes.h"
 
 namespace grove {
 namespace {
-
-bool same_bits(const Film& a, const Film& b) {
-  if (a.width() != b.width() || a.height() != b.height()) return false;
-  for (std::uint32_t y = 0; y < a.height(); ++y) {
-    for (std::uint32_t x = 0; x < a.width(); ++x) {
-      if (a.pixel(x, y).sample_count != b.pixel(x, y).sample_count) return false;
-      if (std::memcmp(&a.pixel(x, y).sum, &b.pixel(x, y).sum, sizeof(Film::Sample)) != 0) return false;
-    }
-  }
-  return true;
-}
 
 RenderSettings settings_for(Integrator integrator) {
   RenderSettings settings = testing::small_settings(0, 3);
@@ -53,8 +41,8 @@ TEST_P(EveryIntegrator, PictureDoesNotDependOnThreads) {
   oneapi::tbb::task_arena(1).execute([&] { one = render(scene, accelerator, settings); });
   oneapi::tbb::task_arena(2).execute([&] { two = render(scene, accelerator, settings); });
   oneapi::tbb::task_arena(4).execute([&] { four = render(scene, accelerator, settings); });
-  EXPECT_TRUE(same_bits(one.film, two.film));
-  EXPECT_TRUE(same_bits(one.film, four.film));
+  EXPECT_TRUE(testing::same_bits(one.film, two.film));
+  EXPECT_TRUE(testing::same_bits(one.film, four.film));
   EXPECT_EQ(one.rays_traced, two.rays_traced);
   EXPECT_GT(testing::mean_radiance(one).y, 0.0F);
 }
@@ -70,7 +58,7 @@ TEST_P(StructureFreeIntegrator, PictureDoesNotDependOnTheStructure) {
   const RenderResult reference = testing::render_scene(scene, settings, "brute");
   for (const std::string_view spec : representative_specs()) {
     const RenderResult other = testing::render_scene(scene, settings, std::string(spec).c_str());
-    EXPECT_TRUE(same_bits(reference.film, other.film)) << spec;
+    EXPECT_TRUE(testing::same_bits(reference.film, other.film)) << spec;
     EXPECT_EQ(reference.rays_traced, other.rays_traced) << spec;
   }
 }
@@ -81,7 +69,7 @@ TEST(Determinism, SeedsDiffer) {
   RenderSettings settings = settings_for(Integrator::path);
   const RenderResult first = render(scene, accelerator, settings);
   settings.seed = 100;
-  EXPECT_FALSE(same_bits(first.film, render(scene, accelerator, settings).film));
+  EXPECT_FALSE(testing::same_bits(first.film, render(scene, accelerator, settings).film));
 }
 
 }  // namespace

@@ -32,34 +32,38 @@ Scene lone_sphere() {
   return maker.make();
 }
 
-TEST(Render, StoppedWorkKeepsFinishedTiles) {
+TEST(Render, StoppedWorkKeepsTheFirstSamplesOfEachPixel) {
   const Scene scene = testing::mixed_scene();
   const SceneAccelerator accelerator(scene, "bvh");
-  const RenderSettings settings = testing::small_settings(64, 2);
-  const RenderResult whole = render(scene, accelerator, settings);
-  EXPECT_FALSE(whole.interrupted);
-  EXPECT_EQ(whole.completed_fraction, 1.0);
-
+  RenderSettings settings = testing::small_settings(64, 7);
+  constexpr std::uint64_t kPixels = 64 * 64;
   std::stop_source source;
   ProgressReporter progress;
   progress.stop = source.get_token();
   progress.report = [&](std::uint64_t done, std::uint64_t total) {
-    EXPECT_EQ(total, 64U * 64U);
-    if (done >= 3 * 256) source.request_stop();
+    EXPECT_EQ(total, 7 * kPixels);
+    if (done >= 4 * kPixels + 700) source.request_stop();
   };
   RenderResult part;
   oneapi::tbb::task_arena(1).execute([&] { part = render(scene, accelerator, settings, progress); });
   EXPECT_TRUE(part.interrupted);
-  EXPECT_EQ(part.completed_fraction, 3.0 * 256.0 / (64.0 * 64.0));
+  // One thread stops after the tile in which the pixels passed the mark: that tile has all seven samples, the pass before had four.
+  EXPECT_EQ(part.completed_fraction, (4.0 * kPixels + 768.0) / (7.0 * kPixels));
   int finished = 0;
-  for (std::uint32_t y = 0; y < 64; ++y) {
-    for (std::uint32_t x = 0; x < 64; ++x) {
-      if (part.film.pixel(x, y).sample_count == 0) continue;
-      ++finished;
-      EXPECT_EQ(part.film.mean(x, y).radiance, whole.film.mean(x, y).radiance);
+  for (const std::uint32_t count : {4U, 7U}) {
+    settings.samples_per_pixel = count;
+    const RenderResult whole = render(scene, accelerator, settings);
+    EXPECT_FALSE(whole.interrupted);
+    EXPECT_EQ(whole.completed_fraction, 1.0);
+    for (std::uint32_t y = 0; y < 64; ++y) {
+      for (std::uint32_t x = 0; x < 64; ++x) {
+        if (part.film.pixel(x, y).sample_count != count) continue;
+        ++finished;
+        EXPECT_EQ(part.film.mean(x, y).radiance, whole.film.mean(x, y).radiance);
+      }
     }
   }
-  EXPECT_EQ(finished, 3 * 256);
+  EXPECT_EQ(finished, kPixels) << "each pixel has four samples or all";
 }
 
 TEST(Render, StoppedBeforeItStartsGivesAnEmptyPicture) {
@@ -206,6 +210,9 @@ TEST(Film, DropsWhatIsNoLight) {
   EXPECT_TRUE(film.add(0, 0, {.radiance = Vec3(3.0F)}));
   EXPECT_EQ(film.mean(0, 0).radiance, Vec3(2.0F));
   EXPECT_EQ(film.mean(1, 0).radiance, Vec3(0.0F));
+  EXPECT_EQ(film.pixel(0, 0).taken(), 5U);
+  EXPECT_EQ(film.pixel(0, 0).sample_count, 2U);
+  EXPECT_EQ(film.dropped_samples(), 3U);
 }
 
 }  // namespace

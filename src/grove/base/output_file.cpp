@@ -68,6 +68,11 @@ void OutputFile::write(const void* bytes, std::size_t size) {
   if (size > 0 && std::fwrite(bytes, 1, size, file_) != size) fail(errno);
 }
 
+void OutputFile::sync() {
+  // Pipes and devices have no disk to wait for.
+  if (std::fflush(file_) != 0 || (::fsync(::fileno(file_)) != 0 && errno != EINVAL && errno != ENOTSUP)) fail(errno);
+}
+
 void OutputFile::commit() {
   std::FILE* const file = file_;
   file_ = nullptr;

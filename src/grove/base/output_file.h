@@ -21,6 +21,9 @@ class OutputFile {
   void write(const void* bytes, std::size_t size);
   void write(std::string_view text) { write(text.data(), text.size()); }
 
+  /// Waits until what was written is on the disk, so that not even a power cut can leave less under the final name. Throws OutputError.
+  void sync();
+
   /// Where the bytes go until `commit`, for writers that want a name: they may open and overwrite it, if `write` is not used.
   [[nodiscard]] const std::filesystem::path& working_path() const { return working_path_; }
 

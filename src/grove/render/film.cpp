@@ -15,13 +15,35 @@ bool is_valid(const Vec3& radiance) {
 }  // namespace
 
 bool Film::add(std::uint32_t x, std::uint32_t y, const Sample& sample) {
-  if (!is_valid(sample.radiance)) return false;
   Pixel& pixel = pixels_[std::size_t{y} * width_ + x];
+  if (!is_valid(sample.radiance)) {
+    ++pixel.dropped_count;
+    return false;
+  }
   pixel.sum.radiance += sample.radiance;
   pixel.sum.albedo += sample.albedo;
   pixel.sum.normal += sample.normal;
   ++pixel.sample_count;
   return true;
+}
+
+void Film::add(std::uint32_t x, std::uint32_t y, const Pixel& other) {
+  Pixel& pixel = pixels_[std::size_t{y} * width_ + x];
+  if (pixel.taken() == 0) {
+    pixel = other;
+    return;
+  }
+  pixel.sum.radiance += other.sum.radiance;
+  pixel.sum.albedo += other.sum.albedo;
+  pixel.sum.normal += other.sum.normal;
+  pixel.sample_count += other.sample_count;
+  pixel.dropped_count += other.dropped_count;
+}
+
+std::uint64_t Film::dropped_samples() const {
+  std::uint64_t count = 0;
+  for (const Pixel& pixel : pixels_) count += pixel.dropped_count;
+  return count;
 }
 
 Film::Sample Film::mean(std::uint32_t x, std::uint32_t y) const {

@@ -9,7 +9,7 @@
 namespace grove {
 
 /// Sums of samples per pixel, row 0 at the top. A pixel is written by one thread at a time and its samples are added in order of their
-/// number, so that the sums do not depend on the threads. The means are linear.
+/// number, so that the sums do not depend on the threads. The means are linear. Memory: 44 bytes a pixel.
 class Film {
  public:
   /// What one camera sample saw: light, and guides for a denoiser from the first surface (zero where there is none).
@@ -21,7 +21,11 @@ class Film {
 
   struct Pixel {
     Sample sum;
-    std::uint32_t sample_count = 0;
+    std::uint32_t sample_count = 0;   ///< in the sum
+    std::uint32_t dropped_count = 0;  ///< left out of it
+
+    /// Samples that were taken, from the first on: the number of the next.
+    [[nodiscard]] std::uint64_t taken() const { return std::uint64_t{sample_count} + dropped_count; }
   };
 
   Film() = default;
@@ -30,13 +34,19 @@ class Film {
   [[nodiscard]] std::uint32_t width() const { return width_; }
   [[nodiscard]] std::uint32_t height() const { return height_; }
 
-  /// Adds a sample, unless its radiance holds a NaN, an infinity or a negative number: then returns false and leaves the pixel.
+  /// Adds a sample, unless its radiance holds a NaN, an infinity or a negative number: then counts it as dropped and returns false.
   bool add(std::uint32_t x, std::uint32_t y, const Sample& sample);
+
+  /// Adds other samples of a pixel; where it holds none yet, it has the very bits of `other` afterwards.
+  void add(std::uint32_t x, std::uint32_t y, const Pixel& other);
 
   /// The mean of the samples; zeros where there is none.
   [[nodiscard]] Sample mean(std::uint32_t x, std::uint32_t y) const;
 
   [[nodiscard]] const Pixel& pixel(std::uint32_t x, std::uint32_t y) const { return pixels_[std::size_t{y} * width_ + x]; }
+
+  /// Over all pixels.
+  [[nodiscard]] std::uint64_t dropped_samples() const;
 
  private:
   std::uint32_t width_ = 0;

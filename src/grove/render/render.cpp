@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
+#include <bit>
+#include <limits>
 #include <mutex>
 #include <stop_token>
 
@@ -14,89 +15,118 @@
 #include "grove/render/film_ray.h"
 #include "grove/render/integrator/path.h"
 #include "grove/render/integrator/simple.h"
+#include "grove/render/view.h"
 
 namespace grove {
 namespace {
 
 constexpr std::array<std::string_view, 5> kIntegratorNames = {"path", "ao", "normal", "depth", "cost"};
-constexpr std::uint32_t kTileSide = 16;
-constexpr std::uint32_t kMaxSide = 1U << 16;
-constexpr std::uint64_t kMaxPixels = 1ULL << 28;
 
-struct FilmSize {
-  std::uint32_t width;
-  std::uint32_t height;
+// Each pass takes each pixel to one of 1, 2, 4, 8, 16, 32, 48, … samples: the first numbers are those at which the sample points are spread
+// most evenly, and passes of 16 are long enough to cost nothing.
+constexpr std::uint32_t kLongestPass = 16;
+
+std::uint32_t end_of_next_pass(std::uint32_t taken) {
+  if (taken >= kLongestPass) return taken / kLongestPass * kLongestPass + kLongestPass;
+  return std::bit_ceil(taken + 1);
+}
+
+PicturePart choose_part(const RenderSettings& settings, const TileGrid& grid) {
+  if (settings.samples_per_pixel == 0) throw UsageError("a picture needs at least 1 sample per pixel");
+  PicturePart part = settings.part;
+  if (part.end_sample == 0) part.end_sample = settings.samples_per_pixel;
+  if (part.first_sample >= part.end_sample || part.end_sample > settings.samples_per_pixel) {
+    throw UsageError("samples " + std::to_string(part.first_sample) + ":" + std::to_string(part.end_sample) + " are not a part of the " +
+                     std::to_string(settings.samples_per_pixel) + " of each pixel");
+  }
+  if (part.share >= part.share_count || part.share >= grid.count()) {
+    throw UsageError("tile share " + std::to_string(std::uint64_t{part.share} + 1) + "/" + std::to_string(part.share_count) +
+                     " has no tiles: the picture has " + std::to_string(grid.count()));
+  }
+  return part;
+}
+
+// How far a film has come.
+struct Progression {
+  std::uint64_t taken = 0;  // over all pixels of the part
+  std::uint32_t least = 0;  // of any pixel
 };
 
-FilmSize film_size(const Scene& scene, const RenderSettings& settings) {
-  FilmSize natural{scene.film.width, scene.film.height};
-  if (natural.width == 0 || natural.height == 0) natural = {1280, 720};
-  FilmSize size{settings.width, settings.height};
-  const double aspect = static_cast<double>(natural.width) / natural.height;
-  if (size.width == 0 && size.height == 0) {
-    size = natural;
-  } else if (size.width == 0) {
-    size.width = static_cast<std::uint32_t>(std::clamp(std::round(size.height * aspect), 1.0, double{kMaxSide} + 1.0));
-  } else if (size.height == 0) {
-    size.height = static_cast<std::uint32_t>(std::clamp(std::round(size.width / aspect), 1.0, double{kMaxSide} + 1.0));
+Progression progression(const Film& film, const PicturePart& part, const TileGrid& grid) {
+  Progression all;
+  std::uint64_t least = part.samples_per_pixel();
+  for (std::size_t i = 0; i < part.tile_count(grid); ++i) {
+    const Tile tile = grid.tile(part.tile_number(i));
+    for (std::uint32_t y = tile.first_y; y < tile.end_y; ++y) {
+      for (std::uint32_t x = tile.first_x; x < tile.end_x; ++x) {
+        const std::uint64_t taken = film.pixel(x, y).taken();
+        if (taken > part.samples_per_pixel()) {
+          throw UsageError("the earlier film has pixels of " + std::to_string(part.first_sample + taken) + " samples, more than the " +
+                           std::to_string(part.end_sample) + " that are asked for");
+        }
+        least = std::min(least, taken);
+        all.taken += taken;
+      }
+    }
   }
-  if (size.width > kMaxSide || size.height > kMaxSide || std::uint64_t{size.width} * size.height > kMaxPixels) {
-    throw UsageError("a picture of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
-                     " pixels is too large; the limit is 65536 a side and 2^28 in all");
-  }
-  return size;
+  all.least = static_cast<std::uint32_t>(least);
+  return all;
 }
 
-std::string list_cameras(const Scene& scene) {
-  std::string names;
-  for (const Camera& camera : scene.cameras) names += (names.empty() ? "'" : ", '") + camera.name + "'";
-  return names.empty() ? "the scene has none; leave the name out for a view of all of it" : "there are " + names;
-}
+// When workers put down what they do: for good, or until what there is has been saved.
+class Pause {
+ public:
+  Pause(std::stop_token stop, double seconds) : stop_(std::move(stop)), seconds_(seconds) {}
 
-Camera choose_camera(const Scene& scene, const RenderSettings& settings, const FilmSize& size) {
-  if (!settings.camera.empty()) {
-    for (const Camera& camera : scene.cameras)
-      if (camera.name == settings.camera) return camera;
-    throw UsageError("no camera is named '" + settings.camera + "': " + list_cameras(scene));
+  [[nodiscard]] bool is_stopped() const { return stop_.stop_requested(); }
+  /// Not before something was done since the last one, however short the interval.
+  [[nodiscard]] bool is_due() const { return has_work_.load(std::memory_order_relaxed) && timer_.seconds() >= seconds_; }
+  [[nodiscard]] bool is_wanted() const { return is_stopped() || is_due(); }
+  void note_work() {
+    if (!has_work_.load(std::memory_order_relaxed)) has_work_.store(true, std::memory_order_relaxed);
   }
-  if (!scene.cameras.empty()) return scene.cameras.front();
-  return frame_bounds(scene.bounds(), static_cast<float>(size.width) / static_cast<float>(size.height));
-}
+  void restart() {
+    timer_ = Timer();
+    has_work_ = false;
+  }
+
+ private:
+  std::stop_token stop_;
+  double seconds_;
+  Timer timer_;
+  std::atomic<bool> has_work_{false};
+};
 
 // The work that all threads share.
 class RenderJob {
  public:
-  RenderJob(const PreparedScene& world, const CameraRays& camera, const RenderSettings& settings, Film& film)
-      : world_(world), camera_(camera), settings_(settings), film_(film) {
+  RenderJob(const PreparedScene& world, const CameraRays& camera, const RenderSettings& settings, std::uint32_t first_sample, Film& film)
+      : world_(world), camera_(camera), settings_(settings), film_(film), first_sample_(first_sample) {
     ao_distance_ = settings.ao_distance;
     if (!(ao_distance_ > 0.0F)) ao_distance_ = 0.1F * glm::length(world.scene.bounds().extent());
     if (!(ao_distance_ > 0.0F)) ao_distance_ = std::numeric_limits<float>::infinity();
   }
 
-  /// Returns how many pixels it finished: all, unless it was stopped.
-  std::uint64_t render_tile(std::uint32_t tile_x, std::uint32_t tile_y, const std::stop_token& stop) {
-    const std::uint32_t last_x = std::min(film_.width(), (tile_x + 1) * kTileSide);
-    const std::uint32_t last_y = std::min(film_.height(), (tile_y + 1) * kTileSide);
+  /// Takes each pixel to `end` samples, counted from the part's first, or as far as it comes before the pause. Returns how many it took.
+  std::uint64_t render_tile(const Tile& tile, std::uint32_t end, Pause& pause) {
     std::uint64_t rays = 0;
-    std::uint64_t dropped = 0;
-    std::uint64_t finished = 0;
-    for (std::uint32_t y = tile_y * kTileSide; y < last_y; ++y) {
-      for (std::uint32_t x = tile_x * kTileSide; x < last_x; ++x) {
-        // With many samples a pixel, a tile takes too long to wait for.
-        if (stop.stop_requested()) break;
-        for (std::uint32_t s = 0; s < settings_.samples_per_pixel; ++s) {
-          if (!film_.add(x, y, sample(x, y, s, rays))) ++dropped;
-        }
-        ++finished;
+    std::uint64_t taken = 0;
+    for (std::uint32_t y = tile.first_y; y < tile.end_y; ++y) {
+      for (std::uint32_t x = tile.first_x; x < tile.end_x; ++x) {
+        const auto first = static_cast<std::uint32_t>(film_.pixel(x, y).taken());
+        if (first >= end) continue;
+        // Not only between tiles: one may take too long to wait for.
+        if (pause.is_wanted()) break;
+        for (std::uint32_t s = first; s < end; ++s) film_.add(x, y, sample(x, y, first_sample_ + s, rays));
+        taken += end - first;
+        pause.note_work();
       }
     }
     rays_traced_ += rays;
-    dropped_samples_ += dropped;
-    return finished;
+    return taken;
   }
 
   [[nodiscard]] std::uint64_t rays_traced() const { return rays_traced_; }
-  [[nodiscard]] std::uint64_t dropped_samples() const { return dropped_samples_; }
 
  private:
   Film::Sample sample(std::uint32_t x, std::uint32_t y, std::uint32_t number, std::uint64_t& rays) const {
@@ -130,9 +160,9 @@ class RenderJob {
   const CameraRays& camera_;
   const RenderSettings& settings_;
   Film& film_;
+  std::uint32_t first_sample_;
   float ao_distance_ = 0.0F;
   std::atomic<std::uint64_t> rays_traced_{0};
-  std::atomic<std::uint64_t> dropped_samples_{0};
 };
 
 }  // namespace
@@ -151,46 +181,67 @@ Integrator integrator_from_name(std::string_view name) {
 }
 
 RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, const RenderSettings& settings,
-                    const ProgressReporter& progress) {
+                    const ProgressReporter& progress, RenderCheckpoints checkpoints) {
   const Timer timer;
-  if (settings.samples_per_pixel == 0) throw UsageError("a picture needs at least 1 sample per pixel");
-  const FilmSize size = film_size(scene, settings);
-  const Camera camera = choose_camera(scene, settings, size);
-  const CameraRays camera_rays(camera, size.width, size.height);
-  const PreparedScene world(scene, accelerator);
-
+  const View view = choose_view(scene, settings);
+  const TileGrid grid(view.width, view.height);
   RenderResult result;
+  if (checkpoints.earlier) {
+    result = std::move(*checkpoints.earlier);
+  } else {
+    result.film = Film(view.width, view.height);
+  }
   result.integrator = settings.integrator;
-  result.camera = camera.name;
-  result.film = Film(size.width, size.height);
+  result.camera = view.camera.name;
+  result.part = choose_part(settings, grid);
+  result.warnings.clear();
+  if (result.film.width() != view.width || result.film.height() != view.height) throw UsageError("the earlier film is of another size");
+
+  const CameraRays camera_rays(view.camera, view.width, view.height);
+  const PreparedScene world(scene, accelerator);
   if (settings.integrator == Integrator::path && world.lights.has_default_sky()) {
     result.warnings.emplace_back("the scene has no light; lit by a default sky");
   }
 
-  RenderJob job(world, camera_rays, settings, result.film);
-  const std::uint32_t tiles_x = (size.width + kTileSide - 1) / kTileSide;
-  const std::uint32_t tiles_y = (size.height + kTileSide - 1) / kTileSide;
-  const std::uint64_t total = std::uint64_t{size.width} * size.height;
-  std::mutex reporting;
-  std::uint64_t done = 0;
-  parallel_for(std::size_t{tiles_x} * tiles_y, 1, [&](std::size_t tile) {
-    if (progress.stop.stop_requested()) return;
-    const auto tile_x = static_cast<std::uint32_t>(tile % tiles_x);
-    const auto tile_y = static_cast<std::uint32_t>(tile / tiles_x);
-    const std::uint64_t pixels = job.render_tile(tile_x, tile_y, progress.stop);
-    const std::lock_guard lock(reporting);
-    done += pixels;
-    if (progress.report) progress.report(done, total);
-  });
+  RenderJob job(world, camera_rays, settings, result.part.first_sample, result.film);
+  const Progression earlier = progression(result.film, result.part, grid);
+  const std::uint32_t samples = result.part.samples_per_pixel();
+  const std::uint64_t total = result.part.pixel_count(grid) * samples;
+  const std::uint64_t earlier_rays = result.rays_traced;
+  const double earlier_seconds = result.seconds;
+  std::uint64_t done = earlier.taken;
+  const auto take_stock = [&] {
+    result.rays_traced = earlier_rays + job.rays_traced();
+    result.dropped_samples = result.film.dropped_samples();
+    result.completed_fraction = static_cast<double>(done) / static_cast<double>(total);
+    result.interrupted = done < total;
+    result.seconds = earlier_seconds + timer.seconds();
+  };
 
-  result.rays_traced = job.rays_traced();
-  result.dropped_samples = job.dropped_samples();
+  Pause pause(progress.stop, checkpoints.save ? checkpoints.interval_seconds : std::numeric_limits<double>::infinity());
+  std::mutex reporting;
+  std::uint32_t end = std::min(samples, end_of_next_pass(earlier.least));
+  while (done < total && !pause.is_stopped()) {
+    if (pause.is_due()) {
+      take_stock();
+      checkpoints.save(result);
+      pause.restart();
+    }
+    parallel_for(result.part.tile_count(grid), 1, [&](std::size_t i) {
+      if (pause.is_wanted()) return;
+      const std::uint64_t taken = job.render_tile(grid.tile(result.part.tile_number(i)), end, pause);
+      const std::lock_guard lock(reporting);
+      done += taken;
+      if (progress.report) progress.report(done - earlier.taken, total - earlier.taken);
+    });
+    // What was left of the pass at a pause is taken up again.
+    if (!pause.is_wanted()) end = std::min(samples, end_of_next_pass(end));
+  }
+
+  take_stock();
   if (result.dropped_samples > 0) {
     result.warnings.push_back(std::to_string(result.dropped_samples) + " samples were not a number, infinite or negative, and left out");
   }
-  result.completed_fraction = static_cast<double>(done) / static_cast<double>(total);
-  result.interrupted = done < total;
-  result.seconds = timer.seconds();
   return result;
 }
 

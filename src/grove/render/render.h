@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,6 +10,7 @@
 
 #include "grove/base/progress.h"
 #include "grove/render/film.h"
+#include "grove/render/picture_part.h"
 #include "grove/render/scene_accelerator.h"
 #include "grove/scene/scene.h"
 
@@ -43,6 +46,8 @@ struct RenderSettings {
   float ao_distance = 0.0F;
   /// Upper limit on one sample's indirect radiance (in any channel), against fireflies; biases the image. 0 is off.
   float indirect_clamp = 0.0F;
+  /// The part of the picture to make. An end_sample of 0 stands for samples_per_pixel, which it must not exceed.
+  PicturePart part;
 };
 
 struct RenderResult {
@@ -50,23 +55,38 @@ struct RenderResult {
   Integrator integrator = Integrator::path;
   /// Empty for the view that was made for a scene without cameras.
   std::string camera;
+  /// What was asked for: pixels outside of its tiles are black and hold no samples.
+  PicturePart part;
   std::uint64_t rays_traced = 0;
   /// Samples that came out NaN, infinite or negative and were left out.
   std::uint64_t dropped_samples = 0;
+  /// Rays and seconds are sums over this render and what it went on from.
   double seconds = 0.0;
-  /// Of all pixels; below 1 only when interrupted. Unfinished pixels are black and hold no samples.
+  /// Of all samples of the part; below 1 only when interrupted.
   double completed_fraction = 0.0;
   bool interrupted = false;
   /// One line each, such as that a scene without light was given a sky.
   std::vector<std::string> warnings;
 };
 
+/// How a long render goes on from what an earlier one left, and leaves something itself.
+struct RenderCheckpoints {
+  /// The result of an interrupted render of the same scene and settings, but for samples_per_pixel and part.end_sample, which may have grown.
+  std::optional<RenderResult> earlier;
+  /// Called at intervals with what there is so far, by the thread that called `render` while no other works on it; may be empty.
+  std::function<void(const RenderResult&)> save;
+  /// From the end of one call of `save` to the next.
+  double interval_seconds = 60.0;
+};
+
 /// Makes a picture of `scene`, which `accelerator` must have been built from. Runs in the caller's oneTBB arena over tiles of pixels,
-/// and reports pixels done. When the stop token asks, finishes the pixels under way and returns what there is.
+/// in passes that give each pixel a few more samples, and reports samples taken, of those that were left to take. When the stop token asks,
+/// finishes the pixels under way and returns what there is: each pixel with the first so many of its samples.
 ///
-/// The same scene and settings give the same film, bit for bit, for any number of threads and any structure (`cost` excepted, which
-/// shows the structure). Throws UsageError for an unknown camera or impossible settings.
+/// The same scene and settings give the same film, bit for bit, for any number of threads, any structure (`cost` excepted, which
+/// shows the structure), and however often the render was interrupted and gone on with. Throws UsageError for an unknown camera or impossible
+/// settings, and what `save` throws.
 [[nodiscard]] RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, const RenderSettings& settings,
-                                  const ProgressReporter& progress = {});
+                                  const ProgressReporter& progress = {}, RenderCheckpoints checkpoints = {});
 
 }  // namespace grove

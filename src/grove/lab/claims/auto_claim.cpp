@@ -89,7 +89,7 @@ Finding check_auto(const Effort& effort) {
 }
 
 constexpr std::array kClaims{Claim{
-    "auto-picks-winner", "From a look at some primitives, auto picks the structure that builds and traces quickest.", "design, section 4",
+    "auto-picks-winner", "From a look at some primitives, auto picks the structure that builds and traces quickest.", "docs/auto.md",
     "Time to build and trace 1 M, 100 M and 10 G rays with each of nine or ten structures on eight to thirteen scenes. Holds when at least "
     "90 % of the "
     "choices take at most 10 % longer than the quickest, fails when fewer than half do.",

@@ -13,6 +13,7 @@
 #include "grove/lab/claims/figures.h"
 #include "grove/lab/largest_object.h"
 #include "grove/lab/octree_trial.h"
+#include "grove/lab/recorded_rays.h"
 #include "grove/lab/regression.h"
 #include "grove/lab/text_table.h"
 
@@ -31,15 +32,16 @@ Finding check_area_ratio(const Effort& effort) {
   double uniform_departure = 0.0;
   double uniform_noise = 0.0;
   double renderer_departure = 0.0;
-  for (const TrialScene& scene : varied_scenes(effort.choose<std::size_t>(10'000, 100'000), RayKind::diffuse, lines / 4)) {
+  for (const TrialScene& scene : varied_scenes(effort.choose<std::size_t>(10'000, 100'000), RayKind::random, 1)) {
     effort.check_stop();
     const Bvh2 tree = build_top_down(references_of(scene.scene), {});
     const SceneAccelerator accelerator(scene.scene, kDefaultSpec);
     const Camera camera = workload_camera(scene.scene, "");
     const auto kind = [&](RayKind one) { return make_rays(one, scene.scene, accelerator, camera, {lines / 4, 1}); };
-    const std::array sources{std::pair{"uniform lines", lines_through(tree.bounds, lines, 3)},
-                             std::pair{"random origins", kind(RayKind::random)}, std::pair{"primary", kind(RayKind::primary)},
-                             std::pair{"diffuse", scene.rays}};
+    const std::array sources{
+        std::pair{"uniform lines", lines_through(tree.bounds, lines, 3)}, std::pair{"random origins", kind(RayKind::random)},
+        std::pair{"primary", kind(RayKind::primary)},
+        std::pair{"all of a path-traced picture", std::move(recorded_rays(scene.scene, accelerator, camera, {lines / 4, 1}).front().rays)}};
     for (const auto& [name, rays] : sources) {
       const bool are_lines = std::string_view(name) == "uniform lines";
       const ChanceStudy study = study_chances(tree, rays, are_lines ? nullptr : &accelerator.top());

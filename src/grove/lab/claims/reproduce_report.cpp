@@ -89,17 +89,28 @@ std::string plain(const std::string& text) {
   return result;
 }
 
+/// A list of what was found of the claims that are chosen.
+template <typename Choice>
+std::string conclusions_of(const Reproduction& reproduction, const Choice& is_chosen) {
+  std::string items;
+  for (const CheckedClaim& claim : reproduction.claims) {
+    if (!claim.finding || !is_chosen(claim)) continue;
+    items += fmt::format("- **{}** ({}) {}{}{} [figures](#{})\n", plain(claim.statement), name_of(claim.finding->verdict),
+                         plain(claim.finding->measured), claim.finding->why.empty() ? "" : " ", plain(claim.finding->why), claim.id);
+  }
+  return items;
+}
+
 std::string conclusions(const Reproduction& reproduction) {
   std::string text;
   for (const auto& [section, title] : kSections) {
-    std::string items;
-    for (const CheckedClaim& claim : reproduction.claims) {
-      if (!claim.source.starts_with(section) || !claim.finding) continue;
-      items += fmt::format("- **{}** ({}) {}{}{} [figures](#{})\n", plain(claim.statement), name_of(claim.finding->verdict),
-                           plain(claim.finding->measured), claim.finding->why.empty() ? "" : " ", plain(claim.finding->why), claim.id);
-    }
+    const std::string items = conclusions_of(reproduction, [&](const CheckedClaim& claim) { return claim.source.starts_with(section); });
     if (!items.empty()) text += fmt::format("### {}: {}\n\n{}\n", section, title, items);
   }
+  const std::string others = conclusions_of(reproduction, [](const CheckedClaim& claim) {
+    return std::ranges::none_of(kSections, [&](const auto& section) { return claim.source.starts_with(section.first); });
+  });
+  if (!others.empty()) text += "### Beyond the review\n\n" + others + "\n";
   return text;
 }
 
