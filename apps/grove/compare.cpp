@@ -12,6 +12,7 @@
 #include "grove/lab/comparison_report.h"
 #include "grove/lab/matched_memory.h"
 #include "grove/lab/structure_trial.h"
+#include "html_file.h"
 #include "progress_bar.h"
 #include "scale.h"
 #include "session.h"
@@ -55,8 +56,13 @@ void read_lists(CompareOptions& options) {
 
 /// Writes the files that were asked for.
 void write_files(const CompareOptions& options, const Comparison& comparison) {
-  if (!options.json.empty()) write_text_file(options.json, comparison_json(comparison).dump(1) + "\n");
   if (!options.csv.empty()) write_text_file(options.csv, comparison_csv(comparison));
+  if (options.json.empty() && options.html.empty()) return;
+  const nlohmann::ordered_json json = comparison_json(comparison);
+  // Names of files need not be UTF-8.
+  constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+  if (!options.json.empty()) write_text_file(options.json, json.dump(1, ' ', false, kReplace) + "\n");
+  write_html(options, PageKind::report, "Structures on " + comparison.scene, json);
 }
 
 /// Writes what is finished so far. A disk that is full may have room at the end; what was written before stays.
@@ -99,14 +105,15 @@ int run(CompareOptions& options, Interrupts& interrupts) {
   if (options.scale.is_asked) return run_scale(options.scale, options, options.settings, options.limits, interrupts);
   if (!options.json.empty()) check_writable(options.json);
   if (!options.csv.empty()) check_writable(options.csv);
+  check_html(options, PageKind::report);
   const Scene scene = load(options.scene, console);
 
   TrialBuilder trials(options.scene, options.threads, options.limits, interrupts.token());
   if (options.limits.any()) options.settings.trial_build = [&](const std::string& spec) { return trials.try_build(spec); };
 
-  const bool has_files = !options.json.empty() || !options.csv.empty();
+  const bool has_files = !options.json.empty() || !options.csv.empty() || !options.html.empty();
   options.settings.command = command_line();
-  options.settings.heat_maps = !options.json.empty();
+  options.settings.heat_maps = !options.json.empty() || !options.html.empty();
   // With files, a signal ends the work after the step under way, and a second one ends it at once.
   std::optional<Interrupts::Graceful> graceful;
   if (has_files) graceful.emplace(interrupts);
@@ -168,6 +175,7 @@ Verb add_compare(CLI::App& program) {
   add_threads(verb, *options);
   add_json(verb, *options, "machine and rows");
   verb.add_option("--csv", options->csv, "Write the rows to this file as comma-separated values")->type_name("FILE");
+  add_html(verb, *options, "machine and rows");
   add_quiet(verb, *options);
   verb.footer(
       "Every hit is checked against brute force (a sample of the rays on large scenes) before anything is timed. Figures are medians\n"
@@ -176,7 +184,7 @@ Verb add_compare(CLI::App& program) {
       "  grove compare builtin:sphereflake\n"
       "  grove compare scene.glb --structures \"bvh;bvh:leaf-size=8\" --rays primary,random --rounds 9\n"
       "  grove compare builtin:mount --scale --max 1M\n"
-      "  grove compare builtin:cornell --count 100000 --threads 1 --json compare.json --csv compare.csv");
+      "  grove compare builtin:cornell --count 100000 --threads 1 --json compare.json --html compare.html");
   return {&verb, [options](Interrupts& interrupts) { return with_threads(options->threads, [&] { return run(*options, interrupts); }); }};
 }
 

@@ -16,6 +16,7 @@ struct CommonOptions {
   /// Nothing: as many as the machine has.
   std::optional<unsigned> threads;
   std::filesystem::path json;
+  std::filesystem::path html;
   bool quiet = false;
 };
 

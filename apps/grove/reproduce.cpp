@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -9,7 +10,7 @@
 #include "grove/base/output_file.h"
 #include "grove/lab/claims/reproduce_report.h"
 #include "grove/lab/text_table.h"
-#include "progress_bar.h"
+#include "html_file.h"
 #include "session.h"
 #include "verbs.h"
 
@@ -30,6 +31,12 @@ int list_claims() {
     table.add_row({std::string(claim.id), std::string(claim.source), std::string(claim.statement)});
   fmt::print("{}", table.text());
   return 0;
+}
+
+/// Empty where there is no such file.
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// What an earlier run left in the file, as far as this one can go on from it.
@@ -56,22 +63,29 @@ int run(ReproduceOptions& options, Interrupts& interrupts) {
   if (options.json.empty()) options.json = options.settings.quick ? "reproduce-quick.json" : "reproduce.json";
   check_writable(options.json);
   if (!options.markdown.empty()) check_writable(options.markdown);
+  check_html(options, PageKind::report);
   Reproduction earlier = read_earlier(options, console);
   earlier.command = fmt::format("grove reproduce{}", options.settings.quick ? " --quick" : "");
 
-  Reproduction reproduction;
-  {
-    ProgressBar bar("checking", "claims", 1.0, options.quiet);
-    const auto save = [&](const Reproduction& so_far) {
-      // A claim that is finished is not lost to a signal while it is written.
-      const Interrupts::Graceful graceful(interrupts);
-      write_text_file(options.json, reproduction_json(so_far).dump(1) + "\n");
-    };
-    reproduction = reproduce(options.settings, earlier, save, bar.reporter(interrupts.token()));
-  }
+  const ReproduceObserver observer{[&](const Claim& claim, std::size_t number, std::size_t total) {
+                                     console.status(fmt::format("{} of {}: {}", number, total, claim.id));
+                                   },
+                                   [&](const Reproduction& so_far) {
+                                     write_text_file(options.json, reproduction_json(so_far).dump(1) + "\n");
+                                     console.clear_status();
+                                     fmt::print("{}\n", claim_text(so_far.claims.back()));
+                                     std::fflush(stdout);
+                                   }};
+  // The first signal stops the experiment under way; what is finished is kept.
   const Interrupts::Graceful graceful(interrupts);
-  fmt::print("{}", reproduction_text(reproduction));
-  if (!options.markdown.empty()) write_text_file(options.markdown, reproduction_markdown(reproduction));
+  const Reproduction reproduction = reproduce(options.settings, earlier, observer, interrupts.token());
+  console.clear_status();
+  fmt::print("{}\n", tally_text(reproduction));
+  if (!options.markdown.empty()) {
+    const std::string earlier_text = read_text(options.markdown);
+    write_text_file(options.markdown, replace_generated(earlier_text, reproduction_markdown(reproduction)));
+  }
+  write_html(options, PageKind::report, "The review's claims, measured", reproduction_json(reproduction));
   console.say(fmt::format("results are in {}", options.json.string()));
   const auto failed = std::ranges::count_if(reproduction.claims, [](const CheckedClaim& claim) { return !claim.finding; });
   std::fflush(stdout);
@@ -96,7 +110,10 @@ Verb add_reproduce(CLI::App& program) {
   add_threads(verb, *options);
   add_json(verb, *options,
            "claims, verdicts and figures; an interrupted run goes on from it (default: reproduce.json, with --quick reproduce-quick.json)");
-  verb.add_option("--markdown", options->markdown, "Write the findings to this file as a document")->type_name("FILE");
+  verb.add_option("--markdown", options->markdown,
+                  "Write the findings to this file as a document; what is written by hand outside of its marks stays")
+      ->type_name("FILE");
+  add_html(verb, *options, "claims, verdicts and figures");
   add_quiet(verb, *options);
   verb.footer(
       "Each claim is held against counts and times on generated scenes; structures take turns, round by round, and all hits are compared. "
@@ -105,7 +122,7 @@ Verb add_reproduce(CLI::App& program) {
       "Examples:\n"
       "  grove reproduce --quick\n"
       "  grove reproduce --only octree-r-gain,octree-r-candidates\n"
-      "  grove reproduce --markdown findings.md");
+      "  grove reproduce --markdown findings.md --html findings.html");
   return {&verb, [options](Interrupts& interrupts) { return with_threads(options->threads, [&] { return run(*options, interrupts); }); }};
 }
 

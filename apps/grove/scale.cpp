@@ -11,6 +11,7 @@
 #include "grove/base/error.h"
 #include "grove/base/output_file.h"
 #include "grove/lab/scale_report.h"
+#include "html_file.h"
 #include "progress_bar.h"
 #include "session.h"
 #include "verbs.h"
@@ -56,6 +57,13 @@ ScaleSettings settings_for(const ScaleOptions& scale, const CommonOptions& commo
   return settings;
 }
 
+void write_files(const CommonOptions& common, const ScaleStudy& study) {
+  if (common.json.empty() && common.html.empty()) return;
+  const nlohmann::ordered_json json = scale_json(study);
+  if (!common.json.empty()) write_text_file(common.json, json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  write_html(common, PageKind::report, "Growth of structures on " + study.scene, json);
+}
+
 int conclude(const ScaleStudy& study) {
   std::fflush(stdout);
   if (!study.is_complete) {
@@ -75,6 +83,7 @@ int run_scale(const ScaleOptions& scale, const CommonOptions& common, const Comp
   const Console console(common.quiet);
   ScaleSettings settings = settings_for(scale, common, comparison);
   if (!common.json.empty()) check_writable(common.json);
+  check_html(common, PageKind::report);
   // One process for each scene that builds are tried over.
   std::unique_ptr<TrialBuilder> trials;
   std::string tried;
@@ -86,15 +95,14 @@ int run_scale(const ScaleOptions& scale, const CommonOptions& common, const Comp
     };
   }
   const auto save = [&](const ScaleStudy& so_far) {
-    if (common.json.empty()) return;
     try {
-      write_text_file(common.json, scale_json(so_far).dump(1) + "\n");
+      write_files(common, so_far);
     } catch (const OutputError& error) {
       console.warn(error.what());
     }
   };
   std::optional<Interrupts::Graceful> graceful;
-  if (!common.json.empty()) graceful.emplace(interrupts);
+  if (!common.json.empty() || !common.html.empty()) graceful.emplace(interrupts);
   ScaleStudy study;
   {
     ProgressBar bar("growing", "structures", 1.0, common.quiet);
@@ -103,7 +111,7 @@ int run_scale(const ScaleOptions& scale, const CommonOptions& common, const Comp
   if (!graceful) graceful.emplace(interrupts);
   fmt::print("{}", scale_text(study));
   std::fflush(stdout);
-  if (!common.json.empty()) write_text_file(common.json, scale_json(study).dump(1) + "\n");
+  write_files(common, study);
   return conclude(study);
 }
 

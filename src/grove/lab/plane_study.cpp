@@ -59,10 +59,13 @@ struct AxisPlanes {
     const auto found = std::ranges::lower_bound(planes, position, {}, &Plane::to);
     return found == planes.end() || found->from > position ? kInfinity : found->cost;
   }
+  /// Equally spaced from the spatial median, number 0, to the object median.
+  [[nodiscard]] double candidate(int number) const {
+    return spatial_median + (object_median - spatial_median) * number / (kCandidates - 1);
+  }
   [[nodiscard]] double cost_of_candidates() const {
     double best = kInfinity;
-    for (int i = 0; i < kCandidates; ++i)
-      best = std::min(best, cost_at(spatial_median + (object_median - spatial_median) * i / (kCandidates - 1)));
+    for (int i = 0; i < kCandidates; ++i) best = std::min(best, cost_at(candidate(i)));
     return best;
   }
 };
@@ -108,9 +111,10 @@ AxisPlanes planes_of_cell(std::span<const Box> boxes, const Box& cell, int axis)
   std::ranges::nth_element(centres, centres.begin() + static_cast<std::ptrdiff_t>(n / 2));
   AxisPlanes result{axis, {}, centre_of(cell, axis), centres[n / 2]};
   std::vector<double> positions;
+  positions.reserve(2 * n + kCandidates);
   std::ranges::merge(begins, ends, std::back_inserter(positions));
-  // The medians are planes, too, wherever they lie.
-  positions.insert(positions.end(), {result.spatial_median, result.object_median});
+  // The medians and the candidates are planes, too, wherever they lie.
+  for (int i = 0; i < kCandidates; ++i) positions.push_back(result.candidate(i));
   std::ranges::sort(positions);
   positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
   const double lower = cell.lower[axis];
@@ -166,6 +170,10 @@ class Study {
     tally.between = AxisPlanes::meets(best, best_axis->low(), best_axis->high()) ? 1 : 0;
     tally.uneven = best.left != best.right ? 1 : 0;
     tally.crowd_is_smaller = tally.uneven == 1 && (best.left > best.right) == (best.left_area < best.right_area) ? 1 : 0;
+    tally.crowd_is_denser = tally.uneven == 1 && (best.left > best.right) == (static_cast<double>(best.left) * best.right_area >
+                                                                              static_cast<double>(best.right) * best.left_area)
+                                ? 1
+                                : 0;
     // A median that parts nothing leaves all of it in one.
     const auto whole = static_cast<double>(boxes.size());
     double* const sums[4] = {&tally.cost_between, &tally.cost_candidates, &tally.cost_spatial, &tally.cost_object};
@@ -222,6 +230,7 @@ void PlaneTally::add(const PlaneTally& other) {
   between += other.between;
   uneven += other.uneven;
   crowd_is_smaller += other.crowd_is_smaller;
+  crowd_is_denser += other.crowd_is_denser;
   cost_between += other.cost_between;
   cost_candidates += other.cost_candidates;
   cost_spatial += other.cost_spatial;

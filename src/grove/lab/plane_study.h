@@ -21,6 +21,7 @@ struct PlaneTally {
   std::uint64_t between = 0;           ///< nodes of whose cheapest plane on any axis that is true
   std::uint64_t uneven = 0;            ///< nodes whose cheapest plane leaves more on one side than on the other
   std::uint64_t crowd_is_smaller = 0;  ///< of these, those where the side with more has the smaller area
+  std::uint64_t crowd_is_denser = 0;   ///< those where it has more objects for its area
   double cost_between = 0.0;           ///< sum over nodes: cheapest cost between the medians / cheapest cost
   double cost_candidates = 0.0;        ///< the same for eight planes equally spaced from one median to the other
   double cost_spatial = 0.0;           ///< the same for the spatial median

@@ -23,7 +23,9 @@ struct Finding {
   Verdict verdict = Verdict::mixed;
   /// A sentence or two with the figures that decide.
   std::string measured;
-  std::vector<ReportSection> sections;
+  /// What explains it, by counts; empty where it explains itself.
+  std::string why = {};
+  std::vector<ReportSection> sections = {};
 };
 
 struct Claim {

@@ -49,7 +49,7 @@ TrialScene named_scene(const std::string& source, RayKind kind, std::size_t ray_
 
 std::vector<TrialScene> varied_scenes(std::size_t triangles, RayKind kind, std::size_t ray_count) {
   std::vector<TrialScene> scenes;
-  for (const char* const name : {"mount?", "tree?", "sphereflake?shape=triangles&", "soup?", "stadium?"}) {
+  for (const char* const name : {"mount?spheres=false&", "tree?", "sphereflake?shape=triangles&", "soup?", "stadium?"}) {
     TrialScene& scene = scenes.emplace_back(named_scene(fmt::format("builtin:{}triangles={}", name, triangles), kind, ray_count));
     const std::string_view label(name);
     scene.name = std::string(label.substr(0, label.find('?')));

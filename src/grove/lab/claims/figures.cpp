@@ -17,15 +17,17 @@ std::string percent_more(double ratio) {
 }
 
 ReportTable trial_table() {
-  return {{"scene", "structure", "build ms", "MiB", "references", "depth", "nodes a ray", "tests a ray", "ns a ray", "speed"}, {}};
+  return {
+      {"scene", "structure", "build ms", "MiB", "references", "depth", "expected cost", "nodes a ray", "tests a ray", "ns a ray", "speed"},
+      {}};
 }
 
 void add_trials(ReportTable& table, const std::string& scene, std::span<const StructureTrial> trials) {
   for (const StructureTrial& trial : trials) {
     table.rows.push_back({scene, trial.structure, 1e3 * spread_of(trial.build_seconds).median,
                           static_cast<double>(trial.statistics.bytes) * 0x1p-20, static_cast<double>(trial.statistics.references),
-                          static_cast<double>(trial.statistics.depth), trial.nodes, trial.tests, spread_of(trial.nanoseconds).median,
-                          spread_text(speed_ratio(trial, trials.front()))});
+                          static_cast<double>(trial.statistics.depth), trial.statistics.expected_cost, trial.nodes, trial.tests,
+                          spread_of(trial.nanoseconds).median, spread_text(speed_ratio(trial, trials.front()))});
   }
 }
 

@@ -29,7 +29,7 @@ namespace grove {
   return spread_of(ratios_by_round(other.build_seconds, base.build_seconds));
 }
 
-/// A table of trials: scene, structure, build ms, MiB, references, depth, nodes, tests, nanoseconds, speed against the first.
+/// A table of trials: scene, structure, build ms, MiB, references, depth, expected cost, nodes, tests, nanoseconds, speed against the first.
 [[nodiscard]] ReportTable trial_table();
 void add_trials(ReportTable& table, const std::string& scene, std::span<const StructureTrial> trials);
 

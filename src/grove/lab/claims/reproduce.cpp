@@ -1,6 +1,7 @@
 #include "grove/lab/claims/reproduce.h"
 
 #include <algorithm>
+#include <new>
 
 #include "grove/base/error.h"
 #include "grove/base/timer.h"
@@ -22,6 +23,24 @@ void check_ids(const ReproduceSettings& settings) {
   }
 }
 
+/// Nothing where the experiment was stopped.
+std::optional<CheckedClaim> check(const Claim& claim, const Effort& effort) {
+  CheckedClaim checked{
+      std::string(claim.id), std::string(claim.statement), std::string(claim.source), std::string(claim.method), {}, "", 0.0};
+  const Timer timer;
+  try {
+    checked.finding = claim.check(effort);
+  } catch (const Stopped&) {
+    return std::nullopt;
+  } catch (const std::bad_alloc&) {
+    checked.error = "out of memory";
+  } catch (const std::exception& error) {
+    checked.error = error.what();
+  }
+  checked.seconds = timer.seconds();
+  return checked;
+}
+
 }  // namespace
 
 bool can_resume(const Reproduction& earlier, const ReproduceSettings& settings) {
@@ -31,8 +50,8 @@ bool can_resume(const Reproduction& earlier, const ReproduceSettings& settings) 
          earlier.machine.commit == machine.commit;
 }
 
-Reproduction reproduce(const ReproduceSettings& settings, const Reproduction& earlier, const std::function<void(const Reproduction&)>& save,
-                       const ProgressReporter& progress) {
+Reproduction reproduce(const ReproduceSettings& settings, const Reproduction& earlier, const ReproduceObserver& observer,
+                       const std::stop_token& stop) {
   check_ids(settings);
   Reproduction result;
   result.machine = describe_machine();
@@ -40,35 +59,24 @@ Reproduction reproduce(const ReproduceSettings& settings, const Reproduction& ea
   result.command = earlier.command;
   const bool resumes = can_resume(earlier, settings);
   const auto total =
-      static_cast<std::uint64_t>(std::ranges::count_if(review_claims(), [&](const Claim& claim) { return is_chosen(settings, claim.id); }));
+      static_cast<std::size_t>(std::ranges::count_if(review_claims(), [&](const Claim& claim) { return is_chosen(settings, claim.id); }));
   for (const Claim& claim : review_claims()) {
     if (!is_chosen(settings, claim.id)) continue;
     const auto known = std::ranges::find(earlier.claims, claim.id, &CheckedClaim::id);
-    CheckedClaim checked;
     if (resumes && known != earlier.claims.end() && known->finding) {
-      checked = *known;
+      result.claims.push_back(*known);
       result.date = earlier.date;
     } else {
-      if (progress.stop.stop_requested()) return result;
-      checked = {std::string(claim.id), std::string(claim.statement), std::string(claim.source), std::string(claim.method), {}, "", 0.0};
-      const Timer timer;
-      try {
-        checked.finding = claim.check({settings.quick, progress.stop});
-      } catch (const Stopped&) {
-        return result;
-      } catch (const std::bad_alloc&) {
-        checked.error = "out of memory";
-      } catch (const std::exception& error) {
-        checked.error = error.what();
-      }
-      checked.seconds = timer.seconds();
+      if (stop.stop_requested()) return result;
+      if (observer.starts) observer.starts(claim, result.claims.size() + 1, total);
+      std::optional<CheckedClaim> checked = check(claim, {settings.quick, stop});
+      if (!checked) return result;
+      result.claims.push_back(*std::move(checked));
       result.date = utc_date();
     }
-    result.seconds += checked.seconds;
-    result.claims.push_back(std::move(checked));
+    result.seconds += result.claims.back().seconds;
     result.is_complete = result.claims.size() == total;
-    if (save) save(result);
-    if (progress.report) progress.report(result.claims.size(), total);
+    if (observer.finished) observer.finished(result);
   }
   return result;
 }

@@ -3,10 +3,10 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
-#include "grove/base/progress.h"
 #include "grove/lab/claims/claim.h"
 #include "grove/lab/machine.h"
 
@@ -39,13 +39,21 @@ struct Reproduction {
   std::vector<CheckedClaim> claims;
 };
 
-/// Runs the experiments, one claim after the other, in the caller's oneTBB arena. Claims that `earlier` has a finding of are taken from there when it was made with the same
-/// settings on the same machine and by the same commit. `save` is called after each. Progress counts claims; when `progress.stop` asks, returns what is
-/// finished. An experiment that fails becomes a claim with an error. Throws UsageError for an id that no claim has.
-[[nodiscard]] Reproduction reproduce(const ReproduceSettings& settings, const Reproduction& earlier,
-                                     const std::function<void(const Reproduction&)>& save, const ProgressReporter& progress = {});
+/// Told of each claim; either may be left out.
+struct ReproduceObserver {
+  /// Before claim `number` of `total`, from 1 on; not for one that is taken over.
+  std::function<void(const Claim& claim, std::size_t number, std::size_t total)> starts = {};
+  /// After each claim, also one that is taken over: the last of `so_far`.
+  std::function<void(const Reproduction& so_far)> finished = {};
+};
 
-/// Whether the claims of `earlier` can be taken over.
+/// Runs the experiments, one claim after the other, in the caller's oneTBB arena. Claims that `earlier` has a finding of are taken from there when
+/// it can_resume. When `stop` asks, returns what is finished. An experiment that fails becomes a claim with an error. Throws UsageError for
+/// an id that no claim has.
+[[nodiscard]] Reproduction reproduce(const ReproduceSettings& settings, const Reproduction& earlier, const ReproduceObserver& observer = {},
+                                     const std::stop_token& stop = {});
+
+/// Whether the claims of `earlier` can be taken over: it was made with the same effort on the same machine, by the same commit.
 [[nodiscard]] bool can_resume(const Reproduction& earlier, const ReproduceSettings& settings);
 
 }  // namespace grove

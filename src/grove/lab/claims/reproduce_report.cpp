@@ -17,13 +17,17 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kVersion = 1;
 constexpr std::string_view kFormat = "grove-reproduce";
+constexpr std::string_view kGeneratedBegins = "<!-- grove reproduce writes from here -->\n";
+constexpr std::string_view kGeneratedEnds = "<!-- to here -->\n";
 
 Json claim_json(const CheckedClaim& claim) {
   Json sections = Json::array();
   for (const ReportSection& section : claim.finding->sections) sections.push_back(section_json(section));
-  return {{"id", claim.id},           {"statement", claim.statement},        {"source", claim.source},
-          {"method", claim.method},   {"measured", claim.finding->measured}, {"verdict", name_of(claim.finding->verdict)},
-          {"seconds", claim.seconds}, {"sections", std::move(sections)}};
+  Json json{{"id", claim.id},           {"statement", claim.statement},        {"source", claim.source},
+            {"method", claim.method},   {"measured", claim.finding->measured}, {"verdict", name_of(claim.finding->verdict)},
+            {"seconds", claim.seconds}, {"sections", std::move(sections)}};
+  if (!claim.finding->why.empty()) json["why"] = claim.finding->why;
+  return json;
 }
 
 Verdict verdict_from(const std::string& name) {
@@ -37,6 +41,7 @@ CheckedClaim claim_from_json(const Json& json) {
   CheckedClaim claim{json.at("id"), json.at("statement"), json.at("source"), json.at("method"), Finding(), "", json.at("seconds")};
   claim.finding->verdict = verdict_from(json.at("verdict"));
   claim.finding->measured = json.at("measured");
+  claim.finding->why = json.value("why", "");
   for (const Json& section : json.at("sections")) claim.finding->sections.push_back(section_from_json(section));
   return claim;
 }
@@ -70,16 +75,6 @@ std::size_t count_of(const Reproduction& reproduction, Verdict verdict) {
       reproduction.claims, [&](const CheckedClaim& claim) { return claim.finding && claim.finding->verdict == verdict; }));
 }
 
-std::string tally(const Reproduction& reproduction) {
-  const auto failed =
-      static_cast<std::size_t>(std::ranges::count_if(reproduction.claims, [](const CheckedClaim& claim) { return !claim.finding; }));
-  std::string text =
-      fmt::format("{} claims: {} hold, {} are mixed, {} fail", reproduction.claims.size(), count_of(reproduction, Verdict::holds),
-                  count_of(reproduction, Verdict::mixed), count_of(reproduction, Verdict::fails));
-  if (failed > 0) text += fmt::format("; {} could not be checked", failed);
-  return text;
-}
-
 /// The review's sections that have claims.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kSections{{{"III.A", "Octrees"},
                                                                                   {"III.B", "Kd-trees"},
@@ -100,8 +95,8 @@ std::string conclusions(const Reproduction& reproduction) {
     std::string items;
     for (const CheckedClaim& claim : reproduction.claims) {
       if (!claim.source.starts_with(section) || !claim.finding) continue;
-      items += fmt::format("- **{}** ({}) {} {}\n", plain(claim.statement), name_of(claim.finding->verdict), plain(claim.finding->measured),
-                           fmt::format("[figures](#{})", claim.id));
+      items += fmt::format("- **{}** ({}) {}{}{} [figures](#{})\n", plain(claim.statement), name_of(claim.finding->verdict),
+                           plain(claim.finding->measured), claim.finding->why.empty() ? "" : " ", plain(claim.finding->why), claim.id);
     }
     if (!items.empty()) text += fmt::format("### {}: {}\n\n{}\n", section, title, items);
   }
@@ -151,27 +146,34 @@ Reproduction reproduction_from_json(const Json& json, const std::string& file) {
   }
 }
 
-std::string reproduction_text(const Reproduction& reproduction) {
+std::string tally_text(const Reproduction& reproduction) {
+  const auto failed =
+      static_cast<std::size_t>(std::ranges::count_if(reproduction.claims, [](const CheckedClaim& claim) { return !claim.finding; }));
+  std::string text =
+      fmt::format("{} claims: {} hold, {} are mixed, {} fail", reproduction.claims.size(), count_of(reproduction, Verdict::holds),
+                  count_of(reproduction, Verdict::mixed), count_of(reproduction, Verdict::fails));
+  if (failed > 0) text += fmt::format("; {} could not be checked", failed);
+  return text;
+}
+
+std::string claim_text(const CheckedClaim& claim) {
   constexpr std::size_t kWidth = 120;
   constexpr std::size_t kIndent = 8;
-  std::string text;
-  for (const CheckedClaim& claim : reproduction.claims) {
-    const std::string verdict = claim.finding ? std::string(name_of(claim.finding->verdict)) : "failed";
-    text += fmt::format("{:<8}{} ({}, {})\n{}\n{}\n\n", verdict, claim.id, claim.source, duration(claim.seconds),
-                        wrap(claim.statement, kWidth, kIndent),
-                        wrap(claim.finding ? "→ " + claim.finding->measured : "→ " + claim.error, kWidth, kIndent));
-  }
-  return text + tally(reproduction) + '\n';
+  const std::string verdict = claim.finding ? std::string(name_of(claim.finding->verdict)) : "failed";
+  return fmt::format("{:<8}{} ({}, {})\n{}\n{}\n", verdict, claim.id, claim.source, duration(claim.seconds),
+                     wrap(claim.statement, kWidth, kIndent),
+                     wrap(claim.finding ? "→ " + claim.finding->measured : "→ " + claim.error, kWidth, kIndent)) +
+         (claim.finding && !claim.finding->why.empty() ? wrap("Why: " + claim.finding->why, kWidth, kIndent) + "\n" : "");
 }
 
 std::string reproduction_markdown(const Reproduction& reproduction) {
   std::string text = fmt::format(
-      "# The review's claims, measured\n\nWritten by `{}` on {}: {}, {} threads, {}{}. The {}experiments took {}.\n\n{}.\n\n"
+      "# The review's claims, measured\n\n{}\nWritten by `{}` on {}: {}, {} threads, {}{}. The {}experiments took {}.\n\n{}.\n\n"
       "`holds`: true as stated in all cases that were measured; `fails`: in none; `mixed`: in some, or in part. What counts is said with "
       "each experiment.\n\n",
-      reproduction.command, reproduction.date.substr(0, 10), reproduction.machine.cpu, reproduction.machine.threads,
+      kGeneratedBegins, reproduction.command, reproduction.date.substr(0, 10), reproduction.machine.cpu, reproduction.machine.threads,
       reproduction.machine.compiler, reproduction.machine.commit.empty() ? "" : ", commit " + reproduction.machine.commit.substr(0, 12),
-      reproduction.quick ? "quick " : "", duration(reproduction.seconds), tally(reproduction));
+      reproduction.quick ? "quick " : "", duration(reproduction.seconds), tally_text(reproduction));
   text += "## What the review says, and what was found\n\n" + conclusions(reproduction) + "## The experiments\n\n";
   for (const CheckedClaim& claim : reproduction.claims) {
     text += fmt::format("### {}\n\n", claim.id);
@@ -181,13 +183,21 @@ std::string reproduction_markdown(const Reproduction& reproduction) {
     }
     text += fmt::format("{} ({})\n\n{}\n\n**{}**: {}\n\n", plain(claim.statement), claim.source, plain(claim.method),
                         name_of(claim.finding->verdict), plain(claim.finding->measured));
+    if (!claim.finding->why.empty()) text += plain(claim.finding->why) + "\n\n";
     for (const ReportSection& section : claim.finding->sections) {
       // A plot alone repeats what is in a table above it.
       if (section.table) text += section_markdown(section, 4);
     }
   }
-  while (text.ends_with("\n\n")) text.pop_back();
-  return text;
+  return text + std::string(kGeneratedEnds);
+}
+
+std::string replace_generated(std::string_view document, const std::string& generated) {
+  const std::size_t begin = document.find(kGeneratedBegins);
+  const std::size_t end = document.find(kGeneratedEnds, begin == std::string_view::npos ? 0 : begin);
+  if (begin == std::string_view::npos || end == std::string_view::npos) return generated;
+  return std::string(document.substr(0, begin)) + generated.substr(generated.find(kGeneratedBegins)) +
+         std::string(document.substr(end + kGeneratedEnds.size()));
 }
 
 }  // namespace grove
