@@ -27,7 +27,7 @@ TEST(Help, OfEachVerbIsComplete) {
       {"trace", {"SCENE", "--rays", "--hits", "--structure", "--query", "--threads", "--repeat", "--json", "--quiet"}},
       {"compare",
        {"SCENE", "--structures", "--rays", "--rounds", "--count", "--seed", "--camera", "--threads", "--json", "--csv", "--time-limit",
-        "--memory-limit", "--quiet"}},
+        "--memory-limit", "--matched-memory", "--scale", "--sizes", "--max", "--quiet"}},
       {"inspect", {"SCENE", "--structure", "--threads", "--json", "--obj", "--depth", "--quiet"}},
       {"structures", {"--json"}}};
   for (const auto& [verb, names] : options) {
