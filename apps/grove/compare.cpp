@@ -56,8 +56,13 @@ void read_lists(CompareOptions& options) {
 
 /// Writes the files that were asked for.
 void write_files(const CompareOptions& options, const Comparison& comparison) {
-  if (!options.json.empty()) write_text_file(options.json, comparison_json(comparison).dump(1) + "\n");
   if (!options.csv.empty()) write_text_file(options.csv, comparison_csv(comparison));
+  if (options.json.empty() && options.html.empty()) return;
+  const nlohmann::ordered_json json = comparison_json(comparison);
+  // Names of files need not be UTF-8.
+  constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+  if (!options.json.empty()) write_text_file(options.json, json.dump(1, ' ', false, kReplace) + "\n");
+  write_html(options, PageKind::report, "Structures on " + comparison.scene, json);
 }
 
 /// Writes what is finished so far. A disk that is full may have room at the end; what was written before stays.
@@ -128,7 +133,6 @@ int run(CompareOptions& options, Interrupts& interrupts) {
   fmt::print("{}\n{}", comparison_table(comparison), comparison_advice(comparison));
   std::fflush(stdout);
   write_files(options, comparison);
-  write_html(options, PageKind::report, "Structures on " + comparison.scene, comparison_json(comparison));
   return conclude(comparison);
 }
 

@@ -57,6 +57,13 @@ ScaleSettings settings_for(const ScaleOptions& scale, const CommonOptions& commo
   return settings;
 }
 
+void write_files(const CommonOptions& common, const ScaleStudy& study) {
+  if (common.json.empty() && common.html.empty()) return;
+  const nlohmann::ordered_json json = scale_json(study);
+  if (!common.json.empty()) write_text_file(common.json, json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  write_html(common, PageKind::report, "Growth of structures on " + study.scene, json);
+}
+
 int conclude(const ScaleStudy& study) {
   std::fflush(stdout);
   if (!study.is_complete) {
@@ -88,9 +95,8 @@ int run_scale(const ScaleOptions& scale, const CommonOptions& common, const Comp
     };
   }
   const auto save = [&](const ScaleStudy& so_far) {
-    if (common.json.empty()) return;
     try {
-      write_text_file(common.json, scale_json(so_far).dump(1) + "\n");
+      write_files(common, so_far);
     } catch (const OutputError& error) {
       console.warn(error.what());
     }
@@ -105,8 +111,7 @@ int run_scale(const ScaleOptions& scale, const CommonOptions& common, const Comp
   if (!graceful) graceful.emplace(interrupts);
   fmt::print("{}", scale_text(study));
   std::fflush(stdout);
-  if (!common.json.empty()) write_text_file(common.json, scale_json(study).dump(1) + "\n");
-  write_html(common, PageKind::report, "Growth on " + study.scene, scale_json(study));
+  write_files(common, study);
   return conclude(study);
 }
 

@@ -164,6 +164,28 @@ TEST(Compare, RecordsTheRaysOfAPathTracedPicture) {
   for (const char* kind : {"recorded ", "recorded-0 ", "recorded-1 "}) EXPECT_THAT(result.out, HasSubstr(kind));
 }
 
+TEST(Compare, GrowsABuiltInSceneAndFitsExponents) {
+  const TemporaryDirectory directory;
+  const CommandResult result =
+      run_command(directory, {"compare", "builtin:mount", "--scale", "--sizes", "100,1k", "--structures", "bvh;fast", "--count", "500",
+                              "--rounds", "1", "--json", "s.json", "--quiet", "--memory-limit", "1G"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("n^"));
+  const auto json = nlohmann::json::parse(read_file(directory / "s.json"));
+  EXPECT_EQ(json.at("format"), "grove-scale");
+  EXPECT_EQ(json.at("complete"), true);
+  EXPECT_EQ(json.at("rows").size(), 4U);
+  EXPECT_EQ(json.at("fits").size(), 2U);
+}
+
+TEST(Compare, AutoSaysWhatItChose) {
+  const TemporaryDirectory directory;
+  const CommandResult result = run_command(directory, {"inspect", "builtin:cornell", "--structure", "auto"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("auto       chose fast"));
+  EXPECT_THAT(result.out, HasSubstr("structure  fast"));
+}
+
 TEST(Compare, UnwritableOutputsFailBeforeTheWork) {
   const TemporaryDirectory directory;
   CommandSettings settings;

@@ -43,7 +43,7 @@ double distance(std::uint64_t bytes, std::uint64_t wanted) {
 }  // namespace
 
 std::vector<MatchedStructure> match_memory(const Scene& scene, std::span<const std::string> specs, std::uint64_t bytes,
-                                           std::stop_token stop) {
+                                           const std::stop_token& stop) {
   std::vector<MatchedStructure> result;
   for (const std::string& spec : specs) {
     const std::string canonical = canonical_spec(spec);
@@ -64,7 +64,7 @@ std::vector<MatchedStructure> match_memory(const Scene& scene, std::span<const s
 }
 
 ReportSection matched_memory(const Scene& scene, std::span<const std::string> specs, const std::string& camera,
-                             const WorkloadSettings& settings, unsigned rounds, std::stop_token stop) {
+                             const WorkloadSettings& settings, unsigned rounds, const std::stop_token& stop) {
   std::vector<std::uint64_t> sizes;
   for (const std::string& spec : specs) {
     check_stop(stop);
