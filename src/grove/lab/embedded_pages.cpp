@@ -15,14 +15,21 @@
 // clang-format on
 
 GROVE_EMBED_PAGE("grove_report_page", "report.html");
+GROVE_EMBED_PAGE("grove_structure_page", "structure.html");
 
 extern "C" const char kReportPageBegin[] asm("grove_report_page_begin");
 extern "C" const char kReportPageEnd[] asm("grove_report_page_end");
+extern "C" const char kStructurePageBegin[] asm("grove_structure_page_begin");
+extern "C" const char kStructurePageEnd[] asm("grove_structure_page_end");
 
 namespace grove {
 
 std::string_view embedded_report_page() {
   return {kReportPageBegin, static_cast<std::size_t>(kReportPageEnd - kReportPageBegin)};
+}
+
+std::string_view embedded_structure_page() {
+  return {kStructurePageBegin, static_cast<std::size_t>(kStructurePageEnd - kStructurePageBegin)};
 }
 
 }  // namespace grove

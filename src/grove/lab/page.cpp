@@ -17,6 +17,8 @@ std::string_view page_template(PageKind kind) {
   switch (kind) {
     case PageKind::report:
       return embedded_report_page();
+    case PageKind::structure:
+      return embedded_structure_page();
   }
   return {};
 }

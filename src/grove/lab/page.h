@@ -9,7 +9,7 @@
 namespace grove {
 
 /// A page is a folder of web/.
-enum class PageKind : std::uint8_t { report };
+enum class PageKind : std::uint8_t { report, structure };
 
 /// Throws UsageError, which names the packages that are missing, where Grove was built without its pages. For before the work starts.
 void check_page_available(PageKind kind);
