@@ -16,9 +16,9 @@ struct ScaleOptions {
   std::string largest = "10M";
 };
 
-/// Runs the study and returns the exit code. `settings` are those of the comparison: structures, rays (one kind), count, seed and rounds are taken from there where they are
+/// Runs the study and returns the exit code. `comparison` has those of a comparison: structures, rays (one kind), count, seed and rounds are taken from there where they are
 /// not what they are by default.
-int run_scale(const ScaleOptions& scale, const CommonOptions& common, const ComparisonSettings& settings, const BuildLimits& limits,
+int run_scale(const ScaleOptions& scale, const CommonOptions& common, const ComparisonSettings& comparison, const BuildLimits& limits,
               Interrupts& interrupts);
 
 }  // namespace grove::app
