@@ -37,8 +37,10 @@ TEST(Reproduce, ListsTheClaims) {
 
 TEST(Reproduce, KeepsWhatIsFinishedWhenInterrupted) {
   const TemporaryDirectory directory;
-  const CommandResult result = run_command(directory, {"reproduce", "--quick", "--only", "octree-one-parent,octree-r-gain"},
-                                           {.memory_limit = {}, .signal = SIGINT, .signal_when = "octree-one-parent"});
+  CommandSettings settings;
+  settings.signal = SIGINT;
+  settings.signal_when = "octree-one-parent";
+  const CommandResult result = run_command(directory, {"reproduce", "--quick", "--only", "octree-one-parent,octree-r-gain"}, settings);
   EXPECT_EQ(result.exit_code, 130);
   const auto json = nlohmann::json::parse(read_file(directory / "reproduce-quick.json"));
   EXPECT_EQ(json.at("complete"), false);

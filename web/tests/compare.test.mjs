@@ -38,7 +38,7 @@ describe("grove compare --html", { skip: !browser }, () => {
     assert.equal(await page.textContent("h1"), "builtin:cornell");
     assert.equal((await column(page, 0)).length, 6);
     assert.equal(await page.locator(".heat-picture").count(), 6);
-    for (const part of ["advice", "steps", "break-even", "predictions"]) assert.ok(await page.$(`#${part}`), part);
+    for (const part of ["advice", "steps", "break-even"]) assert.ok(await page.$(`#${part}`), part);
     const { all, drawn } = await chartCounts(page);
     assert.ok(all >= 3);
     assert.equal(drawn, all);

@@ -30,7 +30,7 @@ export function withAllFields(report) {
 }
 
 function present(object) {
-  return Object.fromEntries(Object.entries(object).filter(([, value]) => value !== null && value !== undefined));
+  return Object.fromEntries(Object.entries(object).filter(([, value]) => value !== null && value !== undefined && value.length !== 0));
 }
 
 function nothing(row) {
