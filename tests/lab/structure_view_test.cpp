@@ -173,6 +173,14 @@ TEST(SceneTriangles, AreKeptWhereTheyFit) {
   EXPECT_EQ(triangles.grid, 0U);
 }
 
+TEST(SceneTriangles, AreKeptOnceWhereTheyAreTheSame) {
+  Scene scene = testing::small_scene();
+  scene.instances.push_back(scene.instances.front());
+  const SceneTriangles triangles = triangles_of(scene, 1000);
+  EXPECT_EQ(triangles.total, scene.primitive_count());
+  EXPECT_EQ(2 * triangles.triangles.size(), scene.primitive_count());
+}
+
 TEST(SceneTriangles, AreJoinedWhereTheyDoNot) {
   const Scene scene = testing::instanced_scene();
   const SceneTriangles triangles = triangles_of(scene, 100);
