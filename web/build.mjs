@@ -23,7 +23,14 @@ for (const page of pages) {
       configFile: false,
       logLevel: "warn",
       plugins: [viteSingleFile()],
-      build: { outDir: work, emptyOutDir: true, target: "es2020", chunkSizeWarningLimit: 4096, reportCompressedSize: false, modulePreload: { polyfill: false } },
+      build: {
+        outDir: work,
+        emptyOutDir: true,
+        target: "es2020",
+        chunkSizeWarningLimit: 4096,
+        reportCompressedSize: false,
+        modulePreload: { polyfill: false },
+      },
     });
     renameSync(join(work, "index.html"), join(out, `${page}.html`));
   } finally {

@@ -45,7 +45,7 @@ Reproduction read_earlier(const ReproduceOptions& options, const Console& consol
   std::ifstream file(options.json);
   if (!file) return {};
   const nlohmann::ordered_json json = nlohmann::ordered_json::parse(file, nullptr, false);
-  const Reproduction earlier = reproduction_from_json(json, options.json.string());
+  Reproduction earlier = reproduction_from_json(json, options.json.string());
   if (!can_resume(earlier, options.settings)) {
     console.say(fmt::format("{} is from another machine, commit or effort: every claim is checked anew", options.json.string()));
     return {};

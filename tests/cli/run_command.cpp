@@ -28,17 +28,26 @@ constexpr std::chrono::milliseconds kSignalDelay(300);
 
 /// In the child: never returns.
 [[noreturn]] void become_command(const std::filesystem::path& directory, const std::filesystem::path& out, const std::filesystem::path& err,
-                                 const std::vector<char*>& arguments, const std::optional<std::uint64_t>& memory_limit) {
+                                 const std::vector<char*>& arguments, const CommandSettings& settings) {
   const int out_file = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int err_file = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   ::dup2(out_file, STDOUT_FILENO);
   ::dup2(err_file, STDERR_FILENO);
-  if (memory_limit && !kHasSanitizer) {
-    const rlimit limit{*memory_limit, *memory_limit};
+  if (settings.memory_limit && !kHasSanitizer) {
+    const rlimit limit{*settings.memory_limit, *settings.memory_limit};
     ::setrlimit(RLIMIT_AS, &limit);
+  }
+  if (settings.file_limit) {
+    const rlimit limit{*settings.file_limit, *settings.file_limit};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
   }
   if (::chdir(directory.c_str()) == 0) ::execv(GROVE_COMMAND, arguments.data());
   ::_exit(127);
+}
+
+bool is_time_for_signal(const TemporaryDirectory& directory, const std::filesystem::path& out, const CommandSettings& settings) {
+  if (!settings.signal_when_file.empty()) return std::filesystem::exists(directory / settings.signal_when_file);
+  return read_file(out).find(settings.signal_when) != std::string::npos;
 }
 
 }  // namespace
@@ -54,7 +63,7 @@ CommandResult run_command(const TemporaryDirectory& directory, const std::vector
   pointers.push_back(nullptr);
 
   const pid_t child = ::fork();
-  if (child == 0) become_command(directory.path(), out, err, pointers, settings.memory_limit);
+  if (child == 0) become_command(directory.path(), out, err, pointers, settings);
   EXPECT_GT(child, 0) << "cannot start a process";
 
   const Timer timer;
@@ -68,7 +77,7 @@ CommandResult run_command(const TemporaryDirectory& directory, const std::vector
       ADD_FAILURE() << "took longer than " << settings.time_limit << " s";
       return result;
     }
-    if (settings.signal && !is_signalled && read_file(out).find(settings.signal_when) != std::string::npos) {
+    if (settings.signal && !is_signalled && is_time_for_signal(directory, out, settings)) {
       std::this_thread::sleep_for(kSignalDelay);
       ::kill(child, *settings.signal);
       is_signalled = true;

@@ -25,8 +25,23 @@ export function header(report: Report, kind: string, title: string, lead: Child[
       { class: "facts" },
       all.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))),
     ),
+    h("p", { class: "screen-only" }, saveLink(report)),
     report.command && h("pre", { class: "command", tabindex: 0, "aria-label": "The command that made this report" }, report.command),
   );
+}
+
+/** Saves what the page shows as the file that --json writes. */
+function saveLink(report: Report): HTMLElement {
+  const name = `${report.format ?? "grove"}.json`;
+  const link = h("a", { href: "#", download: name, class: "save" }, "Save the data as JSON");
+  // Made only when it is wanted: with heat maps the data are megabytes.
+  link.addEventListener("click", (event) => {
+    if (link.href.startsWith("blob:")) return;
+    event.preventDefault();
+    link.href = URL.createObjectURL(new Blob([JSON.stringify(report, null, 1)], { type: "application/json" }));
+    link.click();
+  });
+  return link;
 }
 
 /** A part of the page with a heading that can be linked to. */

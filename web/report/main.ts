@@ -1,5 +1,8 @@
 import "../shared/base.css";
+import "../shared/tables.css";
 import "./report.css";
+import "./compare/compare.css";
+import "./reproduce/reproduce.css";
 import { readData } from "../shared/data";
 import { h } from "../shared/dom";
 import { comparePage } from "./compare/compare";
@@ -13,7 +16,8 @@ const knownVersion = 1;
 function pageOf(data: unknown): HTMLElement {
   if (typeof data !== "object" || data === null) return apology("This page holds no results.");
   const report = data as Report;
-  if ((report.version ?? 1) > knownVersion) return apology(`These results are of version ${report.version}, which this page is too old for.`);
+  if ((report.version ?? 1) > knownVersion)
+    return apology(`These results are of version ${report.version}, which this page is too old for.`);
   switch (report.format) {
     case "grove-reproduce":
       return reproducePage(report as ReproduceReport);

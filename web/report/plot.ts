@@ -18,7 +18,7 @@ function isRatio(label: string): boolean {
 
 function isPredictedAgainstMeasured(plot: Plot): boolean {
   return (
-    (/predicted/.test(plot.x.label) && /measured/.test(plot.y.label)) ||
+    (/predicted|foretold/.test(plot.x.label) && /measured/.test(plot.y.label)) ||
     (/expected tests/.test(plot.x.label) && /counted tests/.test(plot.y.label)) ||
     (/ratio of areas/.test(plot.x.label) && /share/.test(plot.y.label))
   );
@@ -80,10 +80,13 @@ function optionOf(plot: Plot, theme: Theme, width: number): EChartsOption {
   const ratio = isRatio(plot.y.label);
   const points = plot.series.flatMap((one) => usable(one.points, plot));
   const ys = points.flatMap(([, y, min, max]) => [y, min, max]).filter((y): y is number => typeof y === "number");
+  // Where prediction and measurement are compared, both axes are alike, so that equal figures lie on the diagonal.
+  const xs = points.map(([x]) => x);
+  const both = plot.kind === "scatter" && isPredictedAgainstMeasured(plot) ? [...xs, ...ys] : null;
   const figures = axis(theme, {
     label: plot.y.label,
     log: plot.y.log ?? false,
-    values: ratio ? [...ys, 1] : ys,
+    values: both ?? (ratio ? [...ys, 1] : ys),
     fromZero: plot.kind === "bar" || (plot.kind === "line" && Math.min(...ys) >= 0),
     vertical: !down,
     ...(plot.y.log && ratio && plot.kind === "bar" ? { startValue: 1 } : {}),
@@ -91,7 +94,7 @@ function optionOf(plot: Plot, theme: Theme, width: number): EChartsOption {
   const places = axis(theme, {
     label: plot.x.label,
     log: plot.x.log ?? false,
-    values: points.map(([x]) => x),
+    values: both ?? xs,
     vertical: down,
     ...(plot.x.categories ? { categories: plot.x.categories } : {}),
     labelWidth: labelWidth ?? Math.floor((width - 60) / Math.max(1, plot.x.categories?.length ?? 1)),
@@ -123,8 +126,19 @@ function seriesOf(plot: Plot, one: Series, index: number, color: string, ink: st
   const symbol = symbols[index % symbols.length] ?? "circle";
   const marks: SeriesOption[] = [];
   if (plot.kind === "bar") marks.push({ type: "bar", name: one.name, data, color, barGap, barCategoryGap, barMaxWidth });
-  else if (plot.kind === "scatter") marks.push({ type: "scatter", name: one.name, data, color, symbol, symbolSize: 8 });
-  else {
+  else if (plot.kind === "scatter") {
+    // Many marks lie on each other: smaller ones can still be told apart.
+    const many = plot.series.reduce((sum, each) => sum + each.points.length, 0) > 120;
+    marks.push({
+      type: "scatter",
+      name: one.name,
+      data,
+      color,
+      symbol,
+      symbolSize: many ? 6 : 9,
+      itemStyle: { opacity: many ? 0.65 : 0.85 },
+    });
+  } else {
     const sorted = [...data].sort((a, b) => (a[0] ?? 0) - (b[0] ?? 0));
     const type = dashes[Math.floor(index / symbols.length) % dashes.length] ?? "solid";
     marks.push({
@@ -218,4 +232,3 @@ function spreadOf(plot: Plot, item: Hovered): string {
   const text = `<b>${number(point?.[1])}</b>`;
   return point && typeof point[2] === "number" ? `${text} (${number(point[2])}–${number(point[3])})` : text;
 }
-

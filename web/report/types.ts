@@ -70,6 +70,8 @@ export interface Row {
   tests_per_ray?: number | null;
   build_seconds?: Spread | null;
   build_seconds_one_thread?: Spread | null;
+  /** Following moved vertices: by a refit, or by building anew where there is none. */
+  update?: { method: string; seconds: number } | null;
   bytes?: number | null;
   expected_cost?: number | null;
   end_point_overlap?: number | null;
@@ -104,6 +106,7 @@ export interface CompareReport extends Report {
   primitives?: number;
   ray_count?: number;
   rounds?: number;
+  complete?: boolean;
   rows: Row[];
   notes?: string[];
   break_even?: BreakEven[];
@@ -137,6 +140,8 @@ export interface ReproduceReport extends Report {
 
 export interface Fit {
   exponent: number;
+  /** The figure at one primitive; zero where nothing could be fitted. */
+  factor?: number;
   r_squared: number;
 }
 
@@ -155,6 +160,9 @@ export interface ScaleRow {
 export interface ScaleReport extends Report {
   scene: string;
   sizes?: number[];
+  rays?: string;
+  ray_count?: number;
+  complete?: boolean;
   rows: ScaleRow[];
   fits?: { structure: string; build?: Fit | null; memory?: Fit | null; steps?: Fit | null }[];
   sections?: Section[];

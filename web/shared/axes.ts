@@ -21,13 +21,13 @@ export interface AxisSettings {
   labelWidth?: number;
 }
 
-/** Ends of a logarithmic axis about the values, and what its ticks are powers of: two where the range is less than two decades. */
+/** Ends of a logarithmic axis about the values, and what its ticks are powers of: two where the range is narrow. */
 export function logarithmicRange(values: number[]): { min: number; max: number; logBase: number } {
   const positive = values.filter((value) => value > 0 && Number.isFinite(value));
   if (positive.length === 0) return { min: 1, max: 10, logBase: 10 };
   const least = Math.min(...positive);
   const most = Math.max(...positive);
-  const logBase = most / least < 64 ? 2 : 10;
+  const logBase = most / least < 20 ? 2 : 10;
   const exponent = (value: number) => Math.log(value) / Math.log(logBase);
   const min = logBase ** Math.floor(exponent(least) + 1e-9);
   const max = logBase ** Math.ceil(exponent(most) - 1e-9);

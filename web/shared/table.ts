@@ -38,9 +38,7 @@ export function sortableTable<Row>(columns: Column<Row>[], rows: Row[], settings
       h("span", { class: "arrow", "aria-hidden": "true" }),
     ),
   );
-  const heads = columns.map((column, index) =>
-    h("th", { scope: "col", class: classOf(column, index) }, buttons[index] ?? null),
-  );
+  const heads = columns.map((column, index) => h("th", { scope: "col", class: classOf(column, index) }, buttons[index] ?? null));
   const body = h("tbody");
   const caption = h("caption", {}, settings.caption);
   const element = h(
@@ -74,9 +72,7 @@ export function sortableTable<Row>(columns: Column<Row>[], rows: Row[], settings
           "tr",
           {},
           columns.map((one, index) =>
-            index === 0
-              ? h("th", { scope: "row" }, one.cell(row))
-              : h("td", { class: classOf(one, index) }, one.cell(row)),
+            index === 0 ? h("th", { scope: "row" }, one.cell(row)) : h("td", { class: classOf(one, index) }, one.cell(row)),
           ),
         ),
       ),

@@ -37,6 +37,8 @@ describe("grove compare --html", { skip: !browser }, () => {
     assert.match(await page.title(), /builtin:cornell/);
     assert.equal(await page.textContent("h1"), "builtin:cornell");
     assert.equal((await column(page, 0)).length, 6);
+    assert.equal(await page.locator(".heat-picture").count(), 6);
+    for (const part of ["advice", "steps", "break-even", "predictions"]) assert.ok(await page.$(`#${part}`), part);
     const { all, drawn } = await chartCounts(page);
     assert.ok(all >= 3);
     assert.equal(drawn, all);
@@ -46,8 +48,22 @@ describe("grove compare --html", { skip: !browser }, () => {
 
   test("shows every part of the results", async () => {
     const { page, problems, close } = await openPage(browser, pageWith("report", "All", report));
-    const parts = ["advice", "glance", "failures", "speed", "figures", "memory", "work", "steps", "break-even", "heat-maps", "predictions", "matched-memory"];
+    const parts = [
+      "advice",
+      "glance",
+      "failures",
+      "speed",
+      "figures",
+      "memory",
+      "work",
+      "steps",
+      "break-even",
+      "heat-maps",
+      "predictions",
+      "matched-memory",
+    ];
     for (const part of parts) assert.ok(await page.$(`#${part}`), part);
+    for (const target of await page.$$eval(".jump a", (links) => links.map((link) => link.hash))) assert.ok(await page.$(target), target);
     assert.match(await page.textContent("#failures"), /kdtree:max-depth=64.*took more than the 2 GiB/s);
     assert.equal(await page.locator("#advice .card").count(), 5);
     await scrollThrough(page);
@@ -69,12 +85,16 @@ describe("grove compare --html", { skip: !browser }, () => {
     const { page, close } = await openPage(browser, pageWith("report", "All", report));
     const memory = await columnOf(page, "Memory");
     const sizes = new Map(report.rows.map((row) => [row.structure, row.bytes]));
-    const shown = async () => (await column(page, 0)).map((name) => sizes.get(name.replace(/failed$/, "")) ?? null).filter((size) => size !== null);
+    const shown = async () =>
+      (await column(page, 0)).map((name) => sizes.get(name.replace(/failed$/, "")) ?? null).filter((size) => size !== null);
     const button = page.locator("#figures thead th").nth(memory).locator("button");
     await button.click();
     const ascending = await shown();
     assert.ok(ascending.length >= 5);
-    assert.deepEqual(ascending, [...ascending].sort((a, b) => a - b));
+    assert.deepEqual(
+      ascending,
+      [...ascending].sort((a, b) => a - b),
+    );
     assert.equal(await page.locator("#figures thead th").nth(memory).getAttribute("aria-sort"), "ascending");
     await button.press("Enter");
     assert.deepEqual(await shown(), [...ascending].reverse());
@@ -93,7 +113,10 @@ describe("grove compare --html", { skip: !browser }, () => {
     assert.notEqual(await page.locator("#speed svg").innerHTML(), before.bars);
     assert.match(await page.textContent("#speed .lead"), /random/);
     await page.click('[data-family="bvh"]');
-    assert.deepEqual((await column(page, 0)).filter((name) => name.startsWith("bvh")), []);
+    assert.deepEqual(
+      (await column(page, 0)).filter((name) => name.startsWith("bvh")),
+      [],
+    );
     assert.doesNotMatch(await page.locator("#speed svg").innerHTML(), /bvh/);
     await page.click('[data-family="bvh"]');
     assert.equal((await column(page, 0)).filter((name) => name.startsWith("bvh")).length, 2);
@@ -105,7 +128,12 @@ describe("grove compare --html", { skip: !browser }, () => {
     const { page, close } = await openPage(browser, pageWith("report", "All", report));
     const brightness = () =>
       page.$$eval(".heat-picture:not([hidden]) canvas", (canvases) =>
-        canvases.map((canvas) => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.reduce((sum, value) => sum + value, 0)),
+        canvases.map((canvas) =>
+          canvas
+            .getContext("2d")
+            .getImageData(0, 0, canvas.width, canvas.height)
+            .data.reduce((sum, value) => sum + value, 0),
+        ),
       );
     const setSlider = (value) =>
       page.$eval(
@@ -136,11 +164,17 @@ describe("grove compare --html", { skip: !browser }, () => {
     // The middle of the picture, which the arrow keys start from.
     await page.locator(".heat-picture canvas").first().focus();
     await page.keyboard.press("ArrowRight");
-    assert.deepEqual(await values(), [0, 1, 2, 3, 4, 5].map((index) => `${foretoldSteps(index, 65, 36)} steps here`));
+    assert.deepEqual(
+      await values(),
+      [0, 1, 2, 3, 4, 5].map((index) => `${foretoldSteps(index, 65, 36)} steps here`),
+    );
     const canvas = page.locator(".heat-picture canvas").nth(1);
     const { width, height } = await canvas.boundingBox();
     await canvas.hover({ position: { x: (width * 20.5) / 128, y: (height * 10.5) / 72 } });
-    assert.deepEqual(await values(), [0, 1, 2, 3, 4, 5].map((index) => `${foretoldSteps(index, 20, 10)} steps here`));
+    assert.deepEqual(
+      await values(),
+      [0, 1, 2, 3, 4, 5].map((index) => `${foretoldSteps(index, 20, 10)} steps here`),
+    );
     await close();
   });
 
@@ -173,7 +207,9 @@ describe("grove compare --html", { skip: !browser }, () => {
     await page.emulateMedia({ media: "print" });
     await page.waitForFunction(() => [...document.querySelectorAll(".chart")].every((chart) => chart.querySelector("svg path")));
     assert.equal(await page.isVisible(".controls"), false);
-    const texts = await page.$$eval(".chart svg text", (all) => [...new Set(all.map((text) => text.getAttribute("fill") ?? text.style.fill))]);
+    const texts = await page.$$eval(".chart svg text", (all) => [
+      ...new Set(all.map((text) => text.getAttribute("fill") ?? text.style.fill)),
+    ]);
     assert.deepEqual(texts.sort(), ["#000", "#444"], "black and grey, not the light ink of dark pages");
     assert.ok((await page.pdf({ format: "A4" })).length > 20000);
     assert.deepEqual(problems, []);

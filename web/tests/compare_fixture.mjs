@@ -1,4 +1,5 @@
-// Results of `grove compare` with every field there is: those that a run has not got are made up from those that it has.
+// Results of `grove compare` with every field there is: those that a run has not got are made up from those that it has,
+// and so are heat maps, whose pixels tests must know.
 
 /** `report` with all fields of version 1. */
 export function withAllFields(report) {
@@ -11,12 +12,20 @@ export function withAllFields(report) {
     date: "2026-03-04T05:06:07Z",
     break_even: kinds.map((rays) => breakEven(rays, rows)),
     predictions: [prediction(rows)],
-    heat_maps: heatMaps([...new Set(rows.map((row) => row.structure))]),
     matched_memory: matchedMemory(rows),
     advice: advice(rows),
     auto: { structure: "fast", reason: "triangles that do not move, and enough memory: the fast path was the quickest in 14 of 16 scenes" },
     ...present(report),
-    rows: [...rows, ...kinds.map((rays) => ({ ...nothing(rows[0]), structure: "kdtree:max-depth=64", rays, error: "took more than the 2 GiB of --memory-limit" }))],
+    heat_maps: heatMaps([...new Set(rows.map((row) => row.structure))]),
+    rows: [
+      ...rows,
+      ...kinds.map((rays) => ({
+        ...nothing(rows[0]),
+        structure: "kdtree:max-depth=64",
+        rays,
+        error: "took more than the 2 GiB of --memory-limit",
+      })),
+    ],
   };
 }
 
@@ -77,7 +86,9 @@ function prediction(rows) {
       y: { label: "ns a ray, measured", log: true },
       series: ["primary", "diffuse"].map((name) => ({
         name,
-        points: points.filter((row) => row.rays === name).map((row) => [12.1 * row.nodes_per_ray + 8.3 * row.tests_per_ray, 1000 / row.mrays_per_s.median]),
+        points: points
+          .filter((row) => row.rays === name)
+          .map((row) => [12.1 * row.nodes_per_ray + 8.3 * row.tests_per_ray, 1000 / row.mrays_per_s.median]),
       })),
     },
   };
@@ -113,5 +124,9 @@ function matchedMemory(rows) {
 function advice(rows) {
   const best = rows.filter((row) => row.mrays_per_s).sort((a, b) => b.mrays_per_s.median - a.mrays_per_s.median)[0];
   const why = `${best.mrays_per_s.median.toPrecision(3)} million rays a second`;
-  return ["static offline", "static interactive", "moving vertices", "moving objects", "memory-bound"].map((use) => ({ use, structure: best.structure, why }));
+  return ["static offline", "static interactive", "moving vertices", "moving objects", "memory-bound"].map((use) => ({
+    use,
+    structure: best.structure,
+    why,
+  }));
 }

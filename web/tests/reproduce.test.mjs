@@ -1,6 +1,7 @@
 // The page of `grove reproduce`.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { after, before, describe, test } from "node:test";
 import { chartCounts, dataOf, openPage, overflow, pageWith, runGrove, screenshot, scrollThrough, startBrowser } from "./browser.mjs";
 
@@ -38,6 +39,7 @@ describe("grove reproduce --html", { skip: !browser }, () => {
       const text = await page.textContent(`#${claim.id}`);
       for (const part of [claim.statement, claim.measured, claim.method, claim.verdict]) assert.ok(text.includes(part), part);
     }
+    assert.deepEqual((await page.$$eval(".overview a", (links) => links.map((link) => link.hash.slice(1)))).sort(), ids);
     await screenshot(page, "reproduce-desktop");
     assert.deepEqual(problems, []);
     await close();
@@ -80,15 +82,30 @@ describe("grove reproduce --html", { skip: !browser }, () => {
     const values = async () => (await card.locator(`tbody tr > :nth-child(${depth + 1})`).allTextContents()).map(Number);
     await card.locator("thead th").nth(depth).locator("button").click();
     const once = await values();
-    assert.deepEqual(once, [...once].sort((a, b) => b - a));
+    assert.deepEqual(
+      once,
+      [...once].sort((a, b) => b - a),
+    );
     assert.ok(new Set(once).size > 1);
     await card.locator("thead th").nth(depth).locator("button").click();
     assert.deepEqual(await values(), [...once].reverse());
     await close();
   });
 
+  test("gives its data back", async () => {
+    const { page, close } = await openPage(browser, html);
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click(".save")]);
+    assert.equal(download.suggestedFilename(), "grove-reproduce.json");
+    assert.deepEqual(JSON.parse(readFileSync(await download.path(), "utf8")), dataOf(html));
+    await close();
+  });
+
   test("fits a phone", async () => {
-    const { page, problems, close } = await openPage(browser, pageWith("report", "Claims", report), { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true });
+    const { page, problems, close } = await openPage(browser, pageWith("report", "Claims", report), {
+      viewport: { width: 390, height: 844 },
+      isMobile: true,
+      hasTouch: true,
+    });
     await scrollThrough(page);
     assert.equal(await overflow(page), 0);
     await page.locator(".figures details summary").first().click();

@@ -2,13 +2,28 @@
 
 import assert from "node:assert/strict";
 import { after, describe, test } from "node:test";
-import { chartCounts, openPage, overflow, pageWith, screenshot, scrollThrough, startBrowser } from "./browser.mjs";
+import { chartCounts, openPage, overflow, pageWith, runGrove, screenshot, scrollThrough, startBrowser } from "./browser.mjs";
 import { scaleReport } from "./scale_fixture.mjs";
 
 const browser = await startBrowser();
 after(() => browser?.close());
 
 describe("growth", { skip: !browser }, () => {
+  test("is a page that the command writes", async () => {
+    const html = runGrove(
+      ...["compare", "builtin:spheres", "--scale", "--sizes", "200,400,800", "--structures", "bvh;octree", "--count", "200"],
+      ...["--rounds", "1", "--quiet", "--html", "scale.html"],
+    );
+    const { page, problems, close } = await openPage(browser, html);
+    await scrollThrough(page);
+    assert.equal(await page.locator("#fits tbody tr").count(), 2);
+    assert.equal(await page.locator("#figures tbody tr").count(), 6);
+    const { all, drawn } = await chartCounts(page);
+    assert.deepEqual([all, drawn], [4, 4]);
+    assert.deepEqual(problems, []);
+    await close();
+  });
+
   test("shows exponents, charts and failures", async () => {
     const { page, problems, close } = await openPage(browser, pageWith("report", "Growth", scaleReport()));
     await scrollThrough(page);
@@ -23,7 +38,10 @@ describe("growth", { skip: !browser }, () => {
   });
 
   test("fits a phone", async () => {
-    const { page, problems, close } = await openPage(browser, pageWith("report", "Growth", scaleReport()), { viewport: { width: 390, height: 844 }, isMobile: true });
+    const { page, problems, close } = await openPage(browser, pageWith("report", "Growth", scaleReport()), {
+      viewport: { width: 390, height: 844 },
+      isMobile: true,
+    });
     await scrollThrough(page);
     assert.equal(await overflow(page), 0);
     await screenshot(page, "scale-phone");

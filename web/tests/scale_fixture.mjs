@@ -16,7 +16,15 @@ export function scaleReport() {
   const rows = laws.flatMap(({ structure, build, memory, steps }) =>
     sizes.map((primitives) =>
       structure === "brute" && primitives > 1e5
-        ? { structure, primitives, build_seconds: null, bytes: null, steps_per_ray: null, mrays_per_s: null, error: "took more than the 60 s of --time-limit" }
+        ? {
+            structure,
+            primitives,
+            build_seconds: null,
+            bytes: null,
+            steps_per_ray: null,
+            mrays_per_s: null,
+            error: "took more than the 60 s of --time-limit",
+          }
         : {
             structure,
             primitives,

@@ -14,7 +14,7 @@ enum class PageKind : std::uint8_t { report, structure };
 /// Throws UsageError, which names the packages that are missing, where Grove was built without its pages. For before the work starts.
 void check_page_available(PageKind kind);
 
-/// The page with `title` and `data` in it, which must be of a format that the page knows. Text that is not UTF-8 is
+/// The page with `title` and `data` in it, which must be of a format that the page knows; docs/reports.md has them. Text that is not UTF-8 is
 /// shown with replacement characters. Throws as `check_page_available` does. Any number of threads may call it.
 [[nodiscard]] std::string html_page(PageKind kind, const std::string& title, const nlohmann::ordered_json& data);
 

@@ -4,7 +4,7 @@ import type { EChartsOption, SeriesOption } from "echarts";
 import { axis, plain, tooltip } from "../../shared/axes";
 import { chart } from "../../shared/charts";
 import { h } from "../../shared/dom";
-import { compact, count, duration, number, secondsTick } from "../../shared/format";
+import { compact, count, duration, secondsTick } from "../../shared/format";
 import { familyOf, type Theme } from "../../shared/theme";
 import type { BreakEven } from "../types";
 import { structureName } from "./controls";
@@ -35,7 +35,13 @@ export function breakEvenFigure(view: View): HTMLElement | null {
   }
   const list = h("ol", { class: "best-from" });
   const none = h("p", { class: "lead" }, "There are no such figures for these rays.");
-  const figure = h("div", {}, list, h("div", { class: "segments screen-only", role: "group", "aria-label": "What the chart shows" }, scales), made.element);
+  const figure = h(
+    "div",
+    {},
+    list,
+    h("div", { class: "segments screen-only", role: "group", "aria-label": "What the chart shows" }, scales),
+    made.element,
+  );
   const update = () => {
     const data = current();
     list.replaceChildren(...(data ? bestList(data) : []));
@@ -126,7 +132,7 @@ function optionOf(view: View, data: BreakEven, theme: Theme, scale: Scale): ECha
       log: true,
       values: isRelative ? [1, ...times] : times,
       vertical: true,
-      format: isRelative ? (value) => `${number(value, 2)}×` : secondsTick,
+      format: isRelative ? (value) => `${compact(value)}×` : secondsTick,
     }),
     tooltip: tooltip(theme, {
       trigger: "item",

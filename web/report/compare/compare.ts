@@ -29,25 +29,13 @@ export function comparePage(report: CompareReport): HTMLElement {
   const nameKind = () => (kindOfRays.textContent = view.rays);
   nameKind();
   view.onChange(nameKind);
-  return h(
-    "main",
-    { class: "compare" },
-    header(
-      report,
-      "grove compare",
-      report.scene,
-      [`${count(structures)} structures on the same scene and the same rays. Every hit was checked before anything was timed, and structures took turns, round by round.`],
-      [
-        ...(report.primitives === undefined ? [] : [["Primitives", count(report.primitives)] as [string, string]]),
-        ...(report.ray_count === undefined ? [] : [["Rays of each kind", count(report.ray_count)] as [string, string]]),
-        ...(report.rounds === undefined ? [] : [["Rounds", count(report.rounds)] as [string, string]]),
-      ],
+  const parts = [
+    part(
+      "speed",
+      "Speed",
+      ["Millions of ", kindOfRays, " rays a second: the median over the rounds, and from the least to the most."],
+      speedChart(view).element,
     ),
-    advicePart(report),
-    glancePart(report),
-    failuresPart(report),
-    controlBar(view),
-    part("speed", "Speed", ["Millions of ", kindOfRays, " rays a second: the median over the rounds, and from the least to the most."], speedChart(view).element),
     part("figures", "All figures", h("span", { class: "screen-only" }, "Sort by any column; it scrolls sideways."), rowsTable(view)),
     part(
       "memory",
@@ -61,11 +49,28 @@ export function comparePage(report: CompareReport): HTMLElement {
       "Nodes that rays visit and primitives that they test, counted exactly. Fewer of both is to the left and below.",
       rowScatter(view, "Scatter plot: tests a ray over nodes a ray, a mark for each structure.", nodes, tests).element,
     ),
-    histogram && part("steps", "Steps of single rays", "A mean hides the few rays that take long. At first the fastest structure of each family is shown.", histogram),
-    breakEven && part("break-even", "Time to an image", "Cheap builds win while few rays are traced, good ones when many are. Thick lines are the best somewhere; dots are where the best changes.", breakEven),
+    histogram &&
+      part(
+        "steps",
+        "Steps of single rays",
+        "A mean hides the few rays that take long. At first the fastest structure of each family is shown.",
+        histogram,
+      ),
+    breakEven &&
+      part(
+        "break-even",
+        "Time to an image",
+        "Cheap builds win while few rays are traced, good ones when many are. Thick lines are the best somewhere; dots are where the best changes.",
+        breakEven,
+      ),
     report.heat_maps &&
       report.heat_maps.maps.length > 0 &&
-      part("heat-maps", "Where rays work hard", "Steps (nodes + tests) of the ray through each pixel, all structures at one scale.", heatMapsFigure(view, report.heat_maps)),
+      part(
+        "heat-maps",
+        "Where rays work hard",
+        "Steps (nodes + tests) of the ray through each pixel, all structures at one scale.",
+        heatMapsFigure(view, report.heat_maps),
+      ),
     (report.predictions ?? []).length > 0 &&
       part(
         "predictions",
@@ -74,7 +79,39 @@ export function comparePage(report: CompareReport): HTMLElement {
         (report.predictions ?? []).map((section) => h("div", { class: "card padded" }, sectionElement(section))),
       ),
     report.matched_memory &&
-      part("matched-memory", "At the same memory", null, h("div", { class: "card padded" }, sectionElement(report.matched_memory, { heading: report.matched_memory.title !== "" }))),
+      part(
+        "matched-memory",
+        "At the same memory",
+        null,
+        h("div", { class: "card padded" }, sectionElement(report.matched_memory, { heading: report.matched_memory.title !== "" })),
+      ),
     notesPart(report),
+  ].filter((one): one is HTMLElement => one instanceof HTMLElement);
+  return h(
+    "main",
+    { class: "compare" },
+    header(
+      report,
+      "grove compare",
+      report.scene,
+      [
+        `${count(structures)} structures on the same scene and the same rays. Every hit was checked before anything was timed, and structures took turns, round by round.`,
+      ],
+      [
+        ...(report.primitives === undefined ? [] : [["Primitives", count(report.primitives)] as [string, string]]),
+        ...(report.ray_count === undefined ? [] : [["Rays of each kind", count(report.ray_count)] as [string, string]]),
+        ...(report.rounds === undefined ? [] : [["Rounds", count(report.rounds)] as [string, string]]),
+      ],
+    ),
+    report.complete === false &&
+      h("p", { class: "warning", role: "note" }, "The run was interrupted: these are the rows that were finished."),
+    advicePart(report),
+    glancePart(report),
+    failuresPart(report),
+    controlBar(
+      view,
+      parts.map((one) => one.id),
+    ),
+    parts,
   );
 }

@@ -4,7 +4,8 @@ import { breakable, h } from "../../shared/dom";
 import { familyOf } from "../../shared/theme";
 import type { View } from "./view";
 
-export function controlBar(view: View): HTMLElement {
+/** `parts` are the ids of what can be jumped to. */
+export function controlBar(view: View, parts: string[]): HTMLElement {
   const kinds = view.kinds.map((kind) =>
     h("button", { type: "button", "data-rays": kind, "aria-pressed": String(kind === view.rays), onclick: () => (view.rays = kind) }, kind),
   );
@@ -23,8 +24,23 @@ export function controlBar(view: View): HTMLElement {
   return h(
     "div",
     { class: "bar controls screen-only" },
-    h("div", { class: "control" }, h("span", { class: "control-name" }, "Rays"), h("div", { class: "segments", role: "group", "aria-label": "Kind of rays" }, kinds)),
-    h("div", { class: "control" }, h("span", { class: "control-name" }, "Show"), h("div", { class: "chips", role: "group", "aria-label": "Families of structures" }, families)),
+    h(
+      "div",
+      { class: "control" },
+      h("span", { class: "control-name" }, "Rays"),
+      h("div", { class: "segments", role: "group", "aria-label": "Kind of rays" }, kinds),
+    ),
+    h(
+      "div",
+      { class: "control" },
+      h("span", { class: "control-name" }, "Show"),
+      h("div", { class: "chips", role: "group", "aria-label": "Families of structures" }, families),
+    ),
+    h(
+      "nav",
+      { class: "jump", "aria-label": "Parts of the report" },
+      parts.map((id) => h("a", { href: `#${id}` }, id.replace("-", " "))),
+    ),
   );
 }
 

@@ -59,7 +59,9 @@ export function heatMapsFigure(view: View, maps: HeatMaps): HTMLElement {
       picture.mark.hidden = !inside;
       picture.mark.style.left = `${(100 * (x + 0.5)) / maps.width}%`;
       picture.mark.style.top = `${(100 * (y + 0.5)) / maps.height}%`;
-      picture.value.textContent = inside ? `${count(picture.steps[y * maps.width + x])} steps here` : `${number(mean(picture.steps))} steps on average`;
+      picture.value.textContent = inside
+        ? `${count(picture.steps[y * maps.width + x])} steps here`
+        : `${number(mean(picture.steps))} steps on average`;
     }
   }
 
@@ -74,7 +76,12 @@ export function heatMapsFigure(view: View, maps: HeatMaps): HTMLElement {
       { class: "heat-scale" },
       h("label", { for: "heat-maximum" }, "Top of the scale"),
       slider,
-      h("div", { class: "heat-legend" }, h("div", { class: "heat-gradient", style: `background: ${gradient()}` }), h("div", { class: "heat-ticks" }, h("span", {}, "0"), half, end)),
+      h(
+        "div",
+        { class: "heat-legend" },
+        h("div", { class: "heat-gradient", style: `background: ${gradient()}` }),
+        h("div", { class: "heat-ticks" }, h("span", {}, "0"), half, end),
+      ),
     ),
     picker(
       pictures.map((picture) => picture.structure),

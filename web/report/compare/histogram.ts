@@ -50,8 +50,7 @@ function optionOf(rows: Row[], theme: Theme, width: number): EChartsOption {
       color: theme.families[family] ?? theme.text,
       data: bins.map((from) => (100 * (histogram.get(from) ?? 0)) / Math.max(1, rays)),
       symbol: "none",
-      smooth: 0.25,
-      smoothMonotone: "x",
+      step: "middle",
       lineStyle: { width: 2, type: dashes[before % dashes.length] ?? "solid" },
       areaStyle: { opacity: 0.07 },
       emphasis: { focus: "series" },
@@ -75,7 +74,10 @@ function optionOf(rows: Row[], theme: Theme, width: number): EChartsOption {
     tooltip: tooltip(theme, {
       trigger: "axis",
       formatter: (items: { dataIndex: number; marker: string; seriesName: string; value: number }[]) =>
-        [`<b>${binName(items[0]?.dataIndex ?? 0)} steps</b>`, ...items.map((item) => `${item.marker}${item.seriesName} <b>${item.value.toPrecision(3)} %</b>`)].join("<br>"),
+        [
+          `<b>${binName(items[0]?.dataIndex ?? 0)} steps</b>`,
+          ...items.map((item) => `${item.marker}${item.seriesName} <b>${item.value.toPrecision(3)} %</b>`),
+        ].join("<br>"),
     }),
     series,
   } as EChartsOption;

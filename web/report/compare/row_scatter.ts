@@ -20,7 +20,14 @@ export interface Figure {
   more: boolean;
 }
 
-const symbols: Record<string, string> = { brute: "rect", octree: "diamond", kdtree: "triangle", bvh: "circle", fast: "roundRect", auto: "pin" };
+const symbols: Record<string, string> = {
+  brute: "rect",
+  octree: "diamond",
+  kdtree: "triangle",
+  bvh: "circle",
+  fast: "roundRect",
+  auto: "pin",
+};
 
 interface Mark {
   x: number;
@@ -30,7 +37,11 @@ interface Mark {
 }
 
 export function rowScatter(view: View, label: string, x: Figure, y: Figure): Chart {
-  const made = chart(label, (width) => (width < 480 ? 380 : 420), (theme, width) => optionOf(view, theme, width, x, y));
+  const made = chart(
+    label,
+    (width) => (width < 480 ? 380 : 420),
+    (theme, width) => optionOf(view, theme, width, x, y),
+  );
   view.onChange(made.update);
   return made;
 }
@@ -84,14 +95,28 @@ function optionOf(view: View, theme: Theme, width: number, x: Figure, y: Figure)
           fontSize: 11,
         },
       })),
-      labelLayout: { hideOverlap: true, moveOverlap: "shiftY" },
+      labelLayout: { hideOverlap: true },
     };
   });
   return {
     legend: key.option,
     grid: { top: key.height + 34, left: 4, right: 30, bottom: 28, containLabel: true },
-    xAxis: axis(theme, settings(x, marks.map((mark) => mark.x), false)),
-    yAxis: axis(theme, settings(y, marks.map((mark) => mark.y), true)),
+    xAxis: axis(
+      theme,
+      settings(
+        x,
+        marks.map((mark) => mark.x),
+        false,
+      ),
+    ),
+    yAxis: axis(
+      theme,
+      settings(
+        y,
+        marks.map((mark) => mark.y),
+        true,
+      ),
+    ),
     tooltip: tooltip(theme, {
       trigger: "item",
       formatter: (item: { name: string; value: [number, number] }) =>

@@ -15,7 +15,13 @@ export function rowsTable(view: View): HTMLElement {
   const columns = allColumns(() => fastest).filter((column) => view.report.rows.some((row) => column.value(row) !== null));
   const table = sortableTable(columns, view.rows(), {
     caption: "Structures and their figures",
-    sortBy: { column: Math.max(0, columns.findIndex((column) => column.title === "Mrays/s")), descending: true },
+    sortBy: {
+      column: Math.max(
+        0,
+        columns.findIndex((column) => column.title === "Mrays/s"),
+      ),
+      descending: true,
+    },
   });
   table.element.classList.add("tall", "wide-names");
   view.onChange(() => {
@@ -41,18 +47,24 @@ function allColumns(fastest: () => number): Column<Row>[] {
       cell: (row) => speedCell(row.mrays_per_s, fastest()),
     },
     {
-      title: "× first",
+      title: "×\u00a0first",
       hint: "Speed against the first structure, round by round: the median",
       numeric: true,
       value: (row) => row.ratio_to_first?.median ?? null,
       cell: (row) => number(row.ratio_to_first?.median),
     },
     figure("Nodes/ray", "Nodes visited, a ray", (row) => row.nodes_per_ray, number),
-    minor(figure("95 %", "Nodes visited by the ray that 95 of 100 do not exceed", (row) => row.work?.nodes?.p95, number)),
+    minor(figure("95\u00a0%", "Nodes visited by the ray that 95 of 100 do not exceed", (row) => row.work?.nodes?.p95, number)),
     figure("Tests/ray", "Primitives tested, a ray", (row) => row.tests_per_ray, number),
-    minor(figure("95 %", "Primitives tested by the ray that 95 of 100 do not exceed", (row) => row.work?.tests?.p95, number)),
+    minor(figure("95\u00a0%", "Primitives tested by the ray that 95 of 100 do not exceed", (row) => row.work?.tests?.p95, number)),
     figure("Build", "Wall clock, all threads: the median", (row) => row.build_seconds?.median, duration),
-    figure("Build, 1 thread", "Wall clock, one thread: the median", (row) => row.build_seconds_one_thread?.median, duration),
+    figure("Build, 1\u00a0thread", "Wall clock, one thread: the median", (row) => row.build_seconds_one_thread?.median, duration),
+    figure(
+      "Update",
+      "Following moved vertices: by a refit, or by building anew where there is none",
+      (row) => row.update?.seconds,
+      duration,
+    ),
     figure("Memory", "Of the structure, without the geometry", (row) => row.bytes, bytes),
     minor(figure("References", "Primitives as leaves hold them", (row) => row.references, count)),
     figure("Duplication", "References a primitive", (row) => row.duplication, number),
@@ -76,7 +88,13 @@ function figure(
   value: (row: Row) => number | null | undefined,
   format: (value: number | null | undefined) => string,
 ): Column<Row> {
-  const column: Column<Row> = { title, numeric: true, ascending: true, value: (row) => value(row) ?? null, cell: (row) => format(value(row)) };
+  const column: Column<Row> = {
+    title,
+    numeric: true,
+    ascending: true,
+    value: (row) => value(row) ?? null,
+    cell: (row) => format(value(row)),
+  };
   return hint ? { ...column, hint } : column;
 }
 

@@ -10,8 +10,10 @@ import { bySpeed, type View } from "./view";
 
 export function speedChart(view: View): Chart {
   const height = () => 50 + 26 * Math.max(1, bySpeed(view.rows()).length);
-  const made = chart("Bar chart: millions of rays a second by structure, fastest first, from least to most over the rounds.", height, (theme, width) =>
-    optionOf(view, theme, width),
+  const made = chart(
+    "Bar chart: millions of rays a second by structure, fastest first, from least to most over the rounds.",
+    height,
+    (theme, width) => optionOf(view, theme, width),
   );
   view.onChange(made.update);
   return made;

@@ -17,7 +17,13 @@ export function advicePart(report: CompareReport): HTMLElement | null {
       "div",
       { class: "cards" },
       advice.map(({ use, structure, why }) =>
-        h("div", { class: "card advice" }, h("p", { class: "use" }, use), h("p", { class: "choice" }, structureName(structure)), h("p", {}, why)),
+        h(
+          "div",
+          { class: "card advice" },
+          h("p", { class: "use" }, use),
+          h("p", { class: "choice" }, structureName(structure)),
+          h("p", {}, why),
+        ),
       ),
     ),
     report.auto &&
@@ -87,7 +93,10 @@ function fastest(report: CompareReport): Tile | null {
     what: "Fastest to trace",
     figure: `${number(best[1])} Mrays/s`,
     structure: best[0],
-    note: base && first !== best[0] ? `${number(best[1] / base)} times ${first}; geometric mean over the kinds of rays` : "geometric mean over the kinds of rays",
+    note:
+      base && first !== best[0]
+        ? `${number(best[1] / base)} times ${first}; geometric mean over the kinds of rays`
+        : "geometric mean over the kinds of rays",
   };
 }
 

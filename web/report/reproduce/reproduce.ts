@@ -25,12 +25,20 @@ export function reproducePage(report: ReproduceReport): HTMLElement {
   return h(
     "main",
     { class: "reproduce" },
-    header(report, "grove reproduce", "The review’s claims, measured", [summary(report)], [
-      ["Effort", report.quick ? "quick: small scenes" : "full"],
-      ...(report.seconds === undefined ? [] : [["Experiments took", duration(report.seconds)] as [string, Child]]),
-    ]),
-    report.complete === false && h("p", { class: "warning", role: "note" }, "The run was interrupted: only these claims have been checked."),
+    header(
+      report,
+      "grove reproduce",
+      "The review’s claims, measured",
+      [summary(report)],
+      [
+        ["Effort", report.quick ? "quick: small scenes" : "full"],
+        ...(report.seconds === undefined ? [] : [["Experiments took", duration(report.seconds)] as [string, Child]]),
+      ],
+    ),
+    report.complete === false &&
+      h("p", { class: "warning", role: "note" }, "The run was interrupted: only these claims have been checked."),
     tally(report),
+    overview(groups),
     filterBar(report, groups, cards),
     groups.map(({ id, title, claims }) =>
       h(
@@ -69,17 +77,35 @@ function summary(report: ReproduceReport): string {
   );
 }
 
-/** One mark a claim, by verdict: the proportion at a glance, and a way to each. */
+/** One mark a claim, by verdict: the proportion at a glance. */
 function tally(report: ReproduceReport): HTMLElement {
   return h(
-    "nav",
-    { class: "tally", "aria-label": "All claims by verdict" },
+    "div",
+    { class: "tally", "aria-hidden": "true" },
     verdicts.flatMap((verdict) =>
-      report.claims
-        .filter((claim) => claim.verdict === verdict)
-        .map((claim) =>
-          h("a", { href: `#${claim.id}`, class: verdict, title: claim.statement, "aria-label": `${verdict}: ${claim.statement}` }),
+      report.claims.filter((claim) => claim.verdict === verdict).map((claim) => h("span", { class: verdict, title: claim.statement })),
+    ),
+  );
+}
+
+/** All claims in a line each, with a way to every one. */
+function overview(groups: Group[]): HTMLElement {
+  return h(
+    "nav",
+    { class: "overview", "aria-label": "All claims" },
+    groups.map(({ title, claims }) =>
+      h(
+        "div",
+        {},
+        h("p", { class: "overview-group" }, title),
+        h(
+          "ul",
+          {},
+          claims.map((claim) =>
+            h("li", {}, h("span", { class: `badge ${claim.verdict}` }, claim.verdict), h("a", { href: `#${claim.id}` }, claim.statement)),
+          ),
         ),
+      ),
     ),
   );
 }

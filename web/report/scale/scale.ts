@@ -84,8 +84,13 @@ export function scalePage(report: ScaleReport): HTMLElement {
       "grove compare --scale",
       report.scene,
       [`${count(structures.length)} structures on one generated scene, from ${compact(first ?? 0)} to ${compact(last ?? 0)} primitives.`],
-      [["Sizes", sizes.map(compact).join(", ")]],
+      [
+        ["Sizes", sizes.map(compact).join(", ")],
+        ...(report.rays ? [["Rays", `${report.ray_count ? `${count(report.ray_count)} ` : ""}${report.rays}`] as [string, string]] : []),
+      ],
     ),
+    report.complete === false &&
+      h("p", { class: "warning", role: "note" }, "The run was interrupted: these are the sizes that were finished."),
     (report.fits ?? []).length > 0 &&
       part(
         "fits",
@@ -96,9 +101,12 @@ export function scalePage(report: ScaleReport): HTMLElement {
     figures
       .filter((figure) => report.rows.some((row) => typeof figure.value(row) === "number"))
       .map((figure) => part(figure.id, figure.title, figure.lead, figureChart(report, structures, figure))),
-    (report.sections ?? []).map((section, index) =>
-      part(`section-${index + 1}`, section.title, null, h("div", { class: "card padded" }, sectionElement(section, { heading: false }))),
-    ),
+    // Sections of a plot alone repeat what is drawn above.
+    (report.sections ?? [])
+      .filter((section) => section.table ?? section.text)
+      .map((section, index) =>
+        part(`section-${index + 1}`, section.title, null, h("div", { class: "card padded" }, sectionElement(section, { heading: false }))),
+      ),
     part("figures", "All figures", "Sort by any column.", rowsTable(report.rows)),
     failed.length > 0 &&
       part(
@@ -177,6 +185,11 @@ function optionOf(report: ScaleReport, structures: string[], figure: Figure, the
 
 type FitRow = NonNullable<ScaleReport["fits"]>[number];
 
+/** A factor of zero stands for figures that no law can be fitted to. */
+function isFitted(fit: Fit | null | undefined): boolean {
+  return fit !== null && fit !== undefined && fit.factor !== 0;
+}
+
 function fitsTable(fits: FitRow[]): HTMLElement {
   const exponent = (title: string, fit: (row: FitRow) => Fit | null | undefined): Column<FitRow>[] => [
     {
@@ -184,14 +197,14 @@ function fitsTable(fits: FitRow[]): HTMLElement {
       hint: `Exponent of ${title.toLowerCase()} over the number of primitives`,
       numeric: true,
       ascending: true,
-      value: (row) => fit(row)?.exponent ?? null,
-      cell: (row) => (fit(row) ? h("b", {}, "n", h("sup", {}, (fit(row)?.exponent ?? 0).toFixed(2))) : missing),
+      value: (row) => (isFitted(fit(row)) ? (fit(row)?.exponent ?? null) : null),
+      cell: (row) => (isFitted(fit(row)) ? h("b", {}, "n", h("sup", {}, (fit(row)?.exponent ?? 0).toFixed(2))) : missing),
     },
     {
       title: "R²",
       numeric: true,
-      value: (row) => fit(row)?.r_squared ?? null,
-      cell: (row) => number(fit(row)?.r_squared),
+      value: (row) => (isFitted(fit(row)) ? (fit(row)?.r_squared ?? null) : null),
+      cell: (row) => (isFitted(fit(row)) ? number(fit(row)?.r_squared) : missing),
     },
   ];
   return sortableTable<FitRow>(
@@ -210,15 +223,13 @@ function rowsTable(rows: ScaleRow[]): HTMLElement {
   const columns: Column<ScaleRow>[] = [
     { title: "Structure", ascending: true, value: (row) => row.structure, cell: (row) => structureName(row.structure) },
     { title: "Primitives", numeric: true, ascending: true, value: (row) => row.primitives, cell: (row) => count(row.primitives) },
-    ...figures.map(
-      (figure): Column<ScaleRow> => ({
-        title: figure.title,
-        numeric: true,
-        ascending: true,
-        value: (row) => figure.value(row) ?? null,
-        cell: (row) => figure.text(figure.value(row)),
-      }),
-    ),
+    ...figures.map((figure): Column<ScaleRow> => ({
+      title: figure.title,
+      numeric: true,
+      ascending: true,
+      value: (row) => figure.value(row) ?? null,
+      cell: (row) => figure.text(figure.value(row)),
+    })),
   ];
   const table = sortableTable(columns, rows, { caption: "Figures by structure and size" });
   table.element.classList.add("tall");
