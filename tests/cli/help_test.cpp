@@ -26,8 +26,8 @@ TEST(Help, OfEachVerbIsComplete) {
         "--integrator", "--exposure", "--json", "--quiet"}},
       {"trace", {"SCENE", "--rays", "--hits", "--structure", "--query", "--threads", "--repeat", "--json", "--quiet"}},
       {"compare",
-       {"SCENE", "--structures", "--rays", "--rounds", "--count", "--seed", "--camera", "--threads", "--json", "--csv", "--html", "--time-limit",
-        "--memory-limit", "--scale", "--quiet"}},
+       {"SCENE", "--structures", "--rays", "--rounds", "--count", "--seed", "--camera", "--threads", "--json", "--csv", "--html",
+        "--time-limit", "--memory-limit", "--scale", "--quiet"}},
       {"inspect", {"SCENE", "--structure", "--threads", "--json", "--html", "--camera", "--obj", "--depth", "--quiet"}},
       {"reproduce", {"--quick", "--only", "--list", "--json", "--html", "--markdown", "--restart", "--threads", "--quiet"}},
       {"structures", {"--json"}}};
