@@ -155,12 +155,18 @@ TEST_P(StructureSamples, KeepWhatRecordedRaysComeTo) {
   EXPECT_TRUE(std::ranges::is_sorted(selection.places));
   for (const std::uint32_t ray : recorded_of_stride(selection.stride)) {
     for (const PlacedStep& step : sample.recorded[ray].steps)
-      if (step.kind != TraversalStep::Kind::test) ASSERT_NE(selection.index[step.place], ViewNode::kNone);
+      if (step.kind != TraversalStep::Kind::test) {
+        ASSERT_NE(selection.index[step.place], ViewNode::kNone);
+      }
   }
   for (std::uint32_t i = 0; i < sample.tree.nodes().size(); ++i) {
     const ViewNode& node = sample.tree.nodes()[i];
-    if (node.depth <= selection.complete_depth) EXPECT_NE(selection.index[i], ViewNode::kNone);
-    if (selection.index[i] != ViewNode::kNone && i > 0) EXPECT_NE(selection.index[node.parent], ViewNode::kNone) << "cut off from the root";
+    if (node.depth <= selection.complete_depth) {
+      EXPECT_NE(selection.index[i], ViewNode::kNone);
+    }
+    if (selection.index[i] != ViewNode::kNone && i > 0) {
+      EXPECT_NE(selection.index[node.parent], ViewNode::kNone) << "cut off from the root";
+    }
   }
   // With room for everything, everything is there.
   const NodeSelection all = select_nodes(sample.tree, sample.recorded, {});
@@ -250,7 +256,9 @@ TEST_P(StructureSamples, GoIntoTheObjectsOfInstances) {
   const std::uint64_t object_nodes = accelerator.objects()[0]->statistics().nodes;
   EXPECT_EQ(sample.tree.nodes().size(), accelerator.top().statistics().nodes + 2 * object_nodes);
   const bool is_recorded_otherwise = accelerator.spec() == "fast";  // as above; here in the objects
-  if (!is_recorded_otherwise) EXPECT_EQ(sample.tree.nodes().front().tests, count_all(accelerator.top(), picture).primitives_tested);
+  if (!is_recorded_otherwise) {
+    EXPECT_EQ(sample.tree.nodes().front().tests, count_all(accelerator.top(), picture).primitives_tested);
+  }
 
   const std::vector<std::uint32_t> pixels = PictureRays::pixels(PictureRays::kLeastStride);
   std::size_t hit_count = 0;
@@ -261,11 +269,15 @@ TEST_P(StructureSamples, GoIntoTheObjectsOfInstances) {
     std::uint64_t tests = 0;
     float closest = std::numeric_limits<float>::infinity();
     for (const PlacedStep& step : sample.recorded[i].steps) {
-      if (step.kind != TraversalStep::Kind::test) ASSERT_LT(step.place, sample.tree.nodes().size());
+      if (step.kind != TraversalStep::Kind::test) {
+        ASSERT_LT(step.place, sample.tree.nodes().size());
+      }
       tests += step.kind == TraversalStep::Kind::test ? 1 : 0;
       if (step.is_closest_yet && step.instance == kInvalidId) closest = step.distance;
     }
-    if (!is_recorded_otherwise) EXPECT_EQ(tests, ray_counts.primitives_tested);
+    if (!is_recorded_otherwise) {
+      EXPECT_EQ(tests, ray_counts.primitives_tested);
+    }
     if (!hit) continue;
     EXPECT_EQ(closest, hit.t);
     ++hit_count;
