@@ -14,6 +14,7 @@ namespace grove::testing {
 inline Scene small_scene() {
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;
+  vertices.reserve(std::size_t{8} + 3 * 200);
   for (int corner = 0; corner < 8; ++corner) vertices.emplace_back(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
   for (const auto& [a, b, c, d] :
        {std::array{0U, 2U, 3U, 1U}, {4U, 5U, 7U, 6U}, {0U, 1U, 5U, 4U}, {2U, 6U, 7U, 3U}, {0U, 4U, 6U, 2U}, {1U, 3U, 7U, 5U}}) {

@@ -15,6 +15,9 @@ import { shownNodes, shownNote, type Shown } from "./shown";
 import type { Choice } from "./store";
 import type { Tree } from "./tree";
 
+/** Of more nodes only the edges are drawn. */
+const mostGlass = 1000;
+
 export interface PaneColours extends RayColours {
   background: Color;
   surface: Color;
@@ -84,10 +87,11 @@ export class Pane {
   setOpacities(choice: Choice): void {
     // Beside a ray the nodes that it comes to count.
     const nodeOpacity = choice.nodeOpacity * (choice.ray === null ? 1 : 0.25);
-    // Glass behind glass adds up: level behind level, and box behind box.
+    // Glass behind glass adds up: level behind level, and box behind box. Much of it is fog that takes long to draw.
+    const drawn = this.shown?.drawn ?? 0;
     const levels = choice.to - choice.from + 1;
-    const behind = Math.cbrt(Math.max((this.shown?.drawn ?? 0) / levels / 100, 1));
-    this.nodes.setOpacity(nodeOpacity, (0.12 * nodeOpacity ** 2) / levels / behind);
+    const behind = Math.cbrt(Math.max(drawn / levels / 100, 1));
+    this.nodes.setOpacity(nodeOpacity, drawn > mostGlass ? 0 : (0.12 * nodeOpacity ** 2) / levels / behind);
     this.material.opacity = choice.sceneOpacity;
     this.material.visible = choice.sceneOpacity > 0;
     const isTransparent = choice.sceneOpacity < 1;

@@ -1,7 +1,7 @@
 // The bar that steps the picked ray through all structures, forwards and backwards.
 
 import { h } from "../shared/dom";
-import { count, number } from "../shared/format";
+import { count, number, plural } from "../shared/format";
 import type { Store } from "./store";
 import type { TestedPrimitives } from "./surface";
 import type { Step, Trace } from "./traces";
@@ -20,7 +20,7 @@ export function describeStep(tree: Tree, step: Step, tested: TestedPrimitives): 
     return `tests ${tested.name(step.tested, count)}: ${outcome}`;
   }
   const level = `level ${tree.depth[step.node] ?? "?"}`;
-  const size = tree.isLeaf[step.node] ? `, ${count(tree.metrics.references[step.node] ?? 0)} references` : "";
+  const size = tree.isLeaf[step.node] ? `, ${plural(tree.metrics.references[step.node] ?? 0, "reference")}` : "";
   return `${kindNames[step.kind]} ${count(step.node)} (${level}${size})`;
 }
 
@@ -31,7 +31,7 @@ export function describeState(tree: Tree, trace: Trace, taken: number, tested: T
   const done = Math.min(taken, total);
   const tests = trace.steps.slice(0, done).filter((step) => step.kind === "test").length;
   const leaves = trace.steps.slice(0, done).filter((step) => step.kind === "leaf").length;
-  const so = `${done - tests - leaves} nodes, ${leaves} leaves, ${tests} tests so far`;
+  const so = `${plural(done - tests - leaves, "node")}, ${plural(leaves, "leaf", "leaves")}, ${plural(tests, "test")} so far`;
   if (done === 0) return `Before the first of ${count(total)} steps`;
   const end = done === total ? (trace.isCut ? " (further steps are not kept)" : " (the end)") : "";
   const hit = trace.steps.slice(0, done).filter((step) => step.hit !== null).at(-1)?.hit;

@@ -5,7 +5,7 @@ import { TooltipComponent } from "echarts/components";
 import * as echarts from "echarts/core";
 import { CanvasRenderer } from "echarts/renderers";
 import { h } from "../shared/dom";
-import { compact, count, number } from "../shared/format";
+import { count, number } from "../shared/format";
 import { cssColour, LogScale } from "./palette";
 import type { Store } from "./store";
 import type { Metric, Tree } from "./tree";
@@ -21,6 +21,14 @@ interface Tile {
   value: number;
   itemStyle: { color: string; borderColor?: string; borderWidth?: number; gapWidth?: number };
   children?: Tile[];
+}
+
+/** In as few characters as tell the size. */
+function tileLabel(value: number): string {
+  if (value < 1000) return count(value);
+  const [unit, factor] = value < 1e6 ? ["k", 1e3] : ["M", 1e6];
+  const size = value / Number(factor);
+  return `${size < 10 ? size.toFixed(1) : size.toFixed(0)}${unit}`;
 }
 
 export class Treemap {
@@ -121,8 +129,8 @@ export class Treemap {
             visibleMin: 1,
             label: {
               show: true, color: "#fff", textBorderColor: "#000", textBorderWidth: 2, fontSize: 10,
-              ellipsis: "",
-              formatter: (item: { data?: unknown }) => compact((item.data as Tile).value),
+              ellipsis: "…",
+              formatter: (item: { data?: unknown }) => tileLabel((item.data as Tile).value),
             },
             upperLabel: { show: false },
             levels: Array.from({ length: 24 }, (_, level) => ({ itemStyle: { gapWidth: level < 4 ? 3 - level / 2 : 1, borderWidth: level < 2 ? 2 : 1 } })),

@@ -103,11 +103,11 @@ test("a ray is stepped forwards and backwards through all structures", { skip: !
 });
 
 test("neighbour walks come to cells, the others go down", { skip: !browser }, async () => {
-  const { page, close } = await openPage(browser, three(), { viewport: { width: 600, height: 500 } });
+  const { page, close } = await openPage(browser, three(), { viewport: { width: 480, height: 400 } });
   await pickRay(page);
   const seen = [new Set(), new Set(), new Set()];
   const last = Number((await page.locator(".stepper output").textContent()).split("/")[1].replaceAll(",", ""));
-  for (let step = 1; step <= Math.min(last, 40); ++step) {
+  for (let step = 1; step <= Math.min(last, 24); ++step) {
     await page.keyboard.press("ArrowRight");
     const texts = await page.locator(".pane-step").allTextContents();
     texts.forEach((text, i) => seen[i].add(text.match(/: (\w+ \w+ \w+)/)?.[1]));

@@ -9,6 +9,7 @@
 #include "grove/registry/families.h"
 #include "grove/registry/hierarchy_accelerator.h"
 #include "grove/registry/update_by_rebuilding.h"
+#include "grove/traverse/fast_traversal.h"
 #include "grove/traverse/simd/fast_batch.h"
 #include "grove/traverse/simd/fast_single.h"
 #include "grove/traverse/wide_traversal.h"
@@ -43,7 +44,12 @@ struct FastStructure {
 
 template <typename C>
 void trace_closest(const FastStructure& structure, const TriangleMesh& /*mesh*/, const Ray& ray, Hit& hit, C& counter) {
-  trace_single_closest(structure.bvh, ray, hit, counter.nested());
+  if constexpr (TellsApart<C>) {
+    // Kernels only count; the plain walk can tell of its steps, and finds the same.
+    trace_closest(structure.bvh, ray, hit, counter);
+  } else {
+    trace_single_closest(structure.bvh, ray, hit, counter.nested());
+  }
 }
 template <typename C>
 bool trace_any(const FastStructure& structure, const TriangleMesh& /*mesh*/, const Ray& ray, C& counter) {

@@ -152,8 +152,9 @@ SceneTriangles triangles_of(const Scene& scene, std::size_t most) {
   std::unordered_set<std::array<std::uint64_t, 3>, HashCells> kept;
   for (const Corners& triangle : corners) {
     bool is_flat = false;
-    if (!kept.insert(cells_of(grid, triangle, is_flat)).second && result.grid != 0) continue;
-    if (is_flat) continue;
+    const auto corner_cells = cells_of(grid, triangle, is_flat);
+    // The same triangle twice looks like once.
+    if (is_flat || !kept.insert(corner_cells).second) continue;
     std::array<std::uint32_t, 3> indices{};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto next = static_cast<std::uint32_t>(cells.size());

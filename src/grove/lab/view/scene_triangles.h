@@ -24,7 +24,7 @@ struct SceneTriangles {
 
 /// At most about `most` triangles. Where there are more, vertices that are close together are joined to one in their midst, and triangles left out of which
 /// less than three corners remain (Rossignac and Borrel 1993, "Multi-resolution 3D approximations for rendering complex scenes"). So surfaces stay
-/// closed and what is large stays. O(triangles); scenes of more than 16 million triangles are thinned out first.
+/// closed and what is large stays. Of triangles in one and the same place one is kept. O(triangles); scenes of more than 16 million triangles are thinned out first.
 [[nodiscard]] SceneTriangles triangles_of(const Scene& scene, std::size_t most);
 
 }  // namespace grove
