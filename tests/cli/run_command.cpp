@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <thread>
 
 #include "grove/base/timer.h"
@@ -28,14 +29,19 @@ constexpr std::chrono::milliseconds kSignalDelay(300);
 
 /// In the child: never returns.
 [[noreturn]] void become_command(const std::filesystem::path& directory, const std::filesystem::path& out, const std::filesystem::path& err,
-                                 const std::vector<char*>& arguments, const std::optional<std::uint64_t>& memory_limit) {
+                                 const std::vector<char*>& arguments, const CommandSettings& settings) {
   const int out_file = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int err_file = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   ::dup2(out_file, STDOUT_FILENO);
   ::dup2(err_file, STDERR_FILENO);
-  if (memory_limit && !kHasSanitizer) {
-    const rlimit limit{*memory_limit, *memory_limit};
+  if (settings.memory_limit && !kHasSanitizer) {
+    const rlimit limit{*settings.memory_limit, *settings.memory_limit};
     ::setrlimit(RLIMIT_AS, &limit);
+  }
+  if (settings.file_size_limit) {
+    const rlimit limit{*settings.file_size_limit, *settings.file_size_limit};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    ::signal(SIGXFSZ, SIG_IGN);  // it would end the command; without it, writing fails
   }
   if (::chdir(directory.c_str()) == 0) ::execv(GROVE_COMMAND, arguments.data());
   ::_exit(127);
@@ -54,7 +60,7 @@ CommandResult run_command(const TemporaryDirectory& directory, const std::vector
   pointers.push_back(nullptr);
 
   const pid_t child = ::fork();
-  if (child == 0) become_command(directory.path(), out, err, pointers, settings.memory_limit);
+  if (child == 0) become_command(directory.path(), out, err, pointers, settings);
   EXPECT_GT(child, 0) << "cannot start a process";
 
   const Timer timer;

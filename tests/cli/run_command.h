@@ -22,6 +22,8 @@ struct CommandSettings {
   double time_limit = 60.0;
   /// Bytes of address space; not kept to in builds with a sanitizer, which reserve terabytes.
   std::optional<std::uint64_t> memory_limit;
+  /// Bytes beyond which no file can grow: writing fails as on a full disk.
+  std::optional<std::uint64_t> file_size_limit;
   /// Signal sent when `signal_when` is to be found in what the command has written to standard output, and a moment has passed.
   std::optional<int> signal;
   std::string signal_when;
