@@ -29,7 +29,7 @@ TEST_P(WrongCommandTest, IsExplainedInOneLine) {
 
 std::vector<WrongCommand> wrong_commands() {
   std::vector<WrongCommand> commands{
-      {"NoVerb", {}, "render, merge, trace, compare, inspect, animate, structures"},
+      {"NoVerb", {}, "render, merge, trace, compare, inspect, animate"},
       {"UnknownVerb", {"paint", "scene.glb"}, "unknown verb 'paint'"},
       {"UnknownProgramOption", {"--wat"}, "--wat"},
       {"NoScene", {"render", "-o", "a.png"}, "SCENE is required"},
