@@ -14,6 +14,8 @@ Interrupts::Interrupts() {
   sigaddset(&signals_, SIGINT);
   sigaddset(&signals_, SIGTERM);
   pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  // A file that may not grow larger is an error of the write, as a full disk is.
+  std::signal(SIGXFSZ, SIG_IGN);
   watcher_ = std::thread([this] { watch(); });
 }
 

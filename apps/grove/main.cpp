@@ -12,6 +12,7 @@
 #include <new>
 #include <string>
 
+#include "command_line.h"
 #include "console.h"
 #include "grove/base/error.h"
 #include "verbs.h"
@@ -35,7 +36,10 @@ int fail(const std::string& command, const std::string& message, int exit_code) 
 
 std::string verb_list(const CLI::App& program) {
   std::string text;
-  for (const CLI::App* verb : program.get_subcommands({})) text += (text.empty() ? "" : ", ") + verb->get_name();
+  for (const CLI::App* verb : program.get_subcommands({})) {
+    if (verb->get_group().empty()) continue;
+    text += (text.empty() ? "" : ", ") + verb->get_name();
+  }
   return text;
 }
 
@@ -52,13 +56,14 @@ bool is_unknown_option(const CLI::App& program, const std::string& word) {
 
 int run(int argument_count, char** arguments) {
   // Before anything can start a thread.
+  keep_command_line(argument_count, arguments);
   Interrupts interrupts;
 
   CLI::App program("Grove: acceleration structures for ray tracing, built, traced, compared and rendered with.", "grove");
   program.set_version_flag("--version", "grove " GROVE_VERSION);
   program.require_subcommand(1);
-  const std::array verbs{add_render(program), add_merge(program), add_trace(program),     add_compare(program),   add_inspect(program),
-                         add_animate(program), add_reproduce(program), add_structures(program)};
+  const std::array verbs{add_render(program),  add_merge(program),     add_trace(program),      add_compare(program),  add_inspect(program),
+                         add_animate(program), add_reproduce(program), add_structures(program), add_try_build(program)};
   program.footer(
       "'grove VERB --help' tells all about a verb. Exit codes: 0 done, 1 the work failed, 2 the command was wrong, 130 interrupted.\n\n"
       "Examples:\n"

@@ -74,6 +74,26 @@ CLI::Option* in_range(CLI::Option* option, double minimum, double maximum) {
       ""));
 }
 
+std::uint64_t parse_size(const std::string& option, const std::string& text) {
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
+  const auto number = parse_number<double>(text.substr(0, digits));
+  const std::string unit = text.substr(digits);
+  constexpr std::string_view kPrefixes = "KMGT";
+  double factor = 0.0;
+  if (unit.empty() || unit == "B") {
+    factor = 1.0;
+  } else if (const std::size_t power = kPrefixes.find(unit.front()); power != std::string_view::npos) {
+    const std::string rest = unit.substr(1);
+    const auto exponent = static_cast<double>(power + 1);
+    if (rest.empty() || rest == "iB") factor = std::pow(1024.0, exponent);
+    if (rest == "B") factor = std::pow(1000.0, exponent);
+  }
+  const double bytes = number.value_or(0.0) * factor;
+  if (!(bytes >= 1.0) || bytes >= 0x1p63)
+    throw UsageError(fmt::format("{}: '{}' is not a size; write bytes, or a number with K, M or G, as in 500M or 2GiB", option, text));
+  return static_cast<std::uint64_t>(bytes);
+}
+
 std::vector<std::string> split_list(const std::string& option, const std::string& text, char separator) {
   std::vector<std::string> parts;
   std::size_t first = 0;

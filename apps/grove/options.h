@@ -16,6 +16,7 @@ struct CommonOptions {
   /// Nothing: as many as the machine has.
   std::optional<unsigned> threads;
   std::filesystem::path json;
+  std::filesystem::path html;
   bool quiet = false;
 };
 
@@ -29,6 +30,10 @@ void add_quiet(CLI::App& verb, CommonOptions& options);
 CLI::Option* in_range(CLI::Option* option, std::uint64_t minimum, std::uint64_t maximum);
 /// The same for numbers with a fraction.
 CLI::Option* in_range(CLI::Option* option, double minimum, double maximum);
+
+/// Bytes: a number with B, K, M, G or T, with KB and so on for powers of 1000 and KiB and so on for powers of 1024, which K alone means too.
+/// Throws UsageError for anything else, 0 and less, and 2^63 and more.
+std::uint64_t parse_size(const std::string& option, const std::string& text);
 
 /// The parts of a list, without the spaces around them. Throws UsageError when one is empty.
 std::vector<std::string> split_list(const std::string& option, const std::string& text, char separator);

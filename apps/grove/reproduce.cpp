@@ -10,6 +10,7 @@
 #include "grove/base/output_file.h"
 #include "grove/lab/claims/reproduce_report.h"
 #include "grove/lab/text_table.h"
+#include "html_file.h"
 #include "session.h"
 #include "verbs.h"
 
@@ -44,7 +45,7 @@ Reproduction read_earlier(const ReproduceOptions& options, const Console& consol
   std::ifstream file(options.json);
   if (!file) return {};
   const nlohmann::ordered_json json = nlohmann::ordered_json::parse(file, nullptr, false);
-  const Reproduction earlier = reproduction_from_json(json, options.json.string());
+  Reproduction earlier = reproduction_from_json(json, options.json.string());
   if (!can_resume(earlier, options.settings)) {
     console.say(fmt::format("{} is from another machine, commit or effort: every claim is checked anew", options.json.string()));
     return {};
@@ -62,6 +63,7 @@ int run(ReproduceOptions& options, Interrupts& interrupts) {
   if (options.json.empty()) options.json = options.settings.quick ? "reproduce-quick.json" : "reproduce.json";
   check_writable(options.json);
   if (!options.markdown.empty()) check_writable(options.markdown);
+  check_html(options, PageKind::report);
   Reproduction earlier = read_earlier(options, console);
   earlier.command = fmt::format("grove reproduce{}", options.settings.quick ? " --quick" : "");
 
@@ -83,6 +85,7 @@ int run(ReproduceOptions& options, Interrupts& interrupts) {
     const std::string earlier_text = read_text(options.markdown);
     write_text_file(options.markdown, replace_generated(earlier_text, reproduction_markdown(reproduction)));
   }
+  write_html(options, PageKind::report, "The review's claims, measured", reproduction_json(reproduction));
   console.say(fmt::format("results are in {}", options.json.string()));
   const auto failed = std::ranges::count_if(reproduction.claims, [](const CheckedClaim& claim) { return !claim.finding; });
   std::fflush(stdout);
@@ -107,7 +110,10 @@ Verb add_reproduce(CLI::App& program) {
   add_threads(verb, *options);
   add_json(verb, *options,
            "claims, verdicts and figures; an interrupted run goes on from it (default: reproduce.json, with --quick reproduce-quick.json)");
-  verb.add_option("--markdown", options->markdown, "Write the findings to this file as a document; what is written by hand outside of its marks stays")->type_name("FILE");
+  verb.add_option("--markdown", options->markdown,
+                  "Write the findings to this file as a document; what is written by hand outside of its marks stays")
+      ->type_name("FILE");
+  add_html(verb, *options, "claims, verdicts and figures");
   add_quiet(verb, *options);
   verb.footer(
       "Each claim is held against counts and times on generated scenes; structures take turns, round by round, and all hits are compared. "
@@ -116,7 +122,7 @@ Verb add_reproduce(CLI::App& program) {
       "Examples:\n"
       "  grove reproduce --quick\n"
       "  grove reproduce --only octree-r-gain,octree-r-candidates\n"
-      "  grove reproduce --markdown findings.md");
+      "  grove reproduce --markdown findings.md --html findings.html");
   return {&verb, [options](Interrupts& interrupts) { return with_threads(options->threads, [&] { return run(*options, interrupts); }); }};
 }
 

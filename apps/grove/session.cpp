@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "grove/base/timer.h"
+#include "grove/lab/auto_choice.h"
 #include "grove/lab/text_table.h"
 #include "grove/scene/load.h"
 
@@ -41,6 +42,7 @@ Scene load(const std::string& source, const Console& console) {
 }
 
 BuiltStructure build_structure(const Scene& scene, const std::string& spec, const Console& console) {
+  if (const auto choice = auto_choice(scene, spec)) console.say(fmt::format("auto       chose {}: {}", choice->structure, choice->reason));
   console.status("building " + spec);
   const Timer timer;
   SceneAccelerator accelerator(scene, spec);

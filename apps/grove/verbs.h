@@ -28,5 +28,7 @@ struct Verb {
 [[nodiscard]] Verb add_inspect(CLI::App& program);
 [[nodiscard]] Verb add_reproduce(CLI::App& program);
 [[nodiscard]] Verb add_structures(CLI::App& program);
+/// Not for people, and not listed: see TrialBuilder.
+[[nodiscard]] Verb add_try_build(CLI::App& program);
 
 }  // namespace grove::app

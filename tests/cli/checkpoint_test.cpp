@@ -139,7 +139,7 @@ TEST(Checkpoint, FullDiskCostsTheNewFilmOnly) {
   std::filesystem::remove(directory / "a.png");
   const std::uint32_t samples = samples_for(directory, 1.0);
   CommandSettings settings;
-  settings.file_size_limit = 300'000;
+  settings.file_limit = 300'000;
   const CommandResult result =
       run_command(directory, command(samples, {"-o", "a.png", "--checkpoint", "a.film", "--checkpoint-interval", "0.1"}), settings);
   EXPECT_EQ(result.exit_code, 1);

@@ -28,8 +28,10 @@ TEST(Help, OfEachVerbIsComplete) {
       {"merge", {"FILMS", "--output", "--exposure", "--partial", "--threads", "--quiet"}},
       {"trace", {"SCENE", "--rays", "--hits", "--structure", "--query", "--threads", "--repeat", "--json", "--quiet"}},
       {"compare",
-       {"SCENE", "--structures", "--rays", "--rounds", "--count", "--seed", "--camera", "--threads", "--json", "--csv", "--quiet"}},
-      {"inspect", {"SCENE", "--structure", "--threads", "--json", "--obj", "--depth", "--quiet"}},
+       {"SCENE", "--structures", "--rays", "--rounds", "--count", "--seed", "--camera", "--threads", "--json", "--csv", "--html", "--time-limit",
+        "--memory-limit", "--scale", "--quiet"}},
+      {"inspect", {"SCENE", "--structure", "--threads", "--json", "--html", "--camera", "--obj", "--depth", "--quiet"}},
+      {"reproduce", {"--quick", "--only", "--list", "--json", "--html", "--markdown", "--restart", "--threads", "--quiet"}},
       {"structures", {"--json"}}};
   for (const auto& [verb, names] : options) {
     const CommandResult result = run_command(directory, {verb, "--help"});

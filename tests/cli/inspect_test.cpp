@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "cli/run_command.h"
 
@@ -70,12 +71,29 @@ TEST(Inspect, BoxesCanBeLimitedToLevels) {
   EXPECT_EQ(std::count(boxes.begin(), boxes.end(), 'v'), 8 + std::count(boxes.begin(), boxes.begin() + boxes.find('\n'), 'v'));
 }
 
+TEST(Inspect, WritesAPage) {
+  const TemporaryDirectory directory;
+  const CommandResult result = run_command(directory, {"inspect", "builtin:cornell", "--structure", "bvh; kdtree", "--html", "i.html"});
+  if (result.exit_code == 2) {
+    EXPECT_THAT(result.err, HasSubstr("nodejs"));
+    GTEST_SKIP() << "built without pages";
+  }
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("wrote i.html"));
+  EXPECT_EQ(directory.entry_count(), 1U) << "a temporary file is left";
+  const std::string page = read_file(directory / "i.html");
+  EXPECT_THAT(page, HasSubstr("\"format\":\"grove-inspect\""));
+  EXPECT_THAT(page, HasSubstr("<title>Structures over builtin:cornell</title>"));
+  EXPECT_THAT(page, HasSubstr("\"structure\":\"kdtree\""));
+}
+
 TEST(Inspect, UnwritableOutputsFailBeforeTheWork) {
   const TemporaryDirectory directory;
   CommandSettings settings;
   settings.time_limit = 5.0;
-  for (const char* option : {"--json", "--obj"}) {
+  for (const char* option : {"--json", "--obj", "--html"}) {
     const CommandResult result = run_command(directory, {"inspect", "builtin:soup?triangles=20000000", option, "/nowhere/file"}, settings);
+    if (std::string_view(option) == "--html" && result.exit_code == 2) continue;  // built without pages
     expect_failure(result, 1);
     EXPECT_THAT(result.err, HasSubstr("/nowhere/file"));
   }

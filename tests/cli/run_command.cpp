@@ -38,13 +38,17 @@ constexpr std::chrono::milliseconds kSignalDelay(300);
     const rlimit limit{*settings.memory_limit, *settings.memory_limit};
     ::setrlimit(RLIMIT_AS, &limit);
   }
-  if (settings.file_size_limit) {
-    const rlimit limit{*settings.file_size_limit, *settings.file_size_limit};
+  if (settings.file_limit) {
+    const rlimit limit{*settings.file_limit, *settings.file_limit};
     ::setrlimit(RLIMIT_FSIZE, &limit);
-    ::signal(SIGXFSZ, SIG_IGN);  // it would end the command; without it, writing fails
   }
   if (::chdir(directory.c_str()) == 0) ::execv(GROVE_COMMAND, arguments.data());
   ::_exit(127);
+}
+
+bool is_time_for_signal(const TemporaryDirectory& directory, const std::filesystem::path& out, const CommandSettings& settings) {
+  if (!settings.signal_when_file.empty()) return std::filesystem::exists(directory / settings.signal_when_file);
+  return read_file(out).find(settings.signal_when) != std::string::npos;
 }
 
 }  // namespace
@@ -74,7 +78,7 @@ CommandResult run_command(const TemporaryDirectory& directory, const std::vector
       ADD_FAILURE() << "took longer than " << settings.time_limit << " s";
       return result;
     }
-    if (settings.signal && !is_signalled && read_file(out).find(settings.signal_when) != std::string::npos) {
+    if (settings.signal && !is_signalled && is_time_for_signal(directory, out, settings)) {
       std::this_thread::sleep_for(kSignalDelay);
       ::kill(child, *settings.signal);
       is_signalled = true;

@@ -22,11 +22,13 @@ struct CommandSettings {
   double time_limit = 60.0;
   /// Bytes of address space; not kept to in builds with a sanitizer, which reserve terabytes.
   std::optional<std::uint64_t> memory_limit;
-  /// Bytes beyond which no file can grow: writing fails as on a full disk.
-  std::optional<std::uint64_t> file_size_limit;
+  /// Bytes that a file may grow to, as on a disk that fills up.
+  std::optional<std::uint64_t> file_limit;
   /// Signal sent when `signal_when` is to be found in what the command has written to standard output, and a moment has passed.
   std::optional<int> signal;
   std::string signal_when;
+  /// The same when this file has appeared in `directory`; then nothing is waited for on standard output.
+  std::string signal_when_file;
 };
 
 /// Runs the grove command with these arguments in `directory`, where relative paths lie.

@@ -29,7 +29,7 @@ TEST_P(WrongCommandTest, IsExplainedInOneLine) {
 
 std::vector<WrongCommand> wrong_commands() {
   std::vector<WrongCommand> commands{
-      {"NoVerb", {}, "render, merge, trace, compare, inspect, animate"},
+      {"NoVerb", {}, "render, merge, trace, compare, inspect, animate, reproduce, structures"},
       {"UnknownVerb", {"paint", "scene.glb"}, "unknown verb 'paint'"},
       {"UnknownProgramOption", {"--wat"}, "--wat"},
       {"NoScene", {"render", "-o", "a.png"}, "SCENE is required"},
@@ -70,7 +70,13 @@ std::vector<WrongCommand> wrong_commands() {
       {"EmptyRays", {"compare", "builtin:cornell", "--rays", "primary,,random"}, "empty entry"},
       {"EmptyStructures", {"compare", "builtin:cornell", "--structures", "bvh;"}, "empty entry"},
       {"UnknownAmongStructures", {"compare", "builtin:cornell", "--structures", "bvh;oak"}, "oak"},
+      {"BadMemoryLimit", {"compare", "builtin:cornell", "--memory-limit", "2 cups"}, "2GiB"},
+      {"BadTimeLimit", {"compare", "builtin:cornell", "--time-limit", "0"}, "0.001"},
       {"BadDepths", {"inspect", "builtin:cornell", "--obj", "b.obj", "--depth", "5-2"}, "2-5"},
+      {"SeveralWithoutPage", {"inspect", "builtin:cornell", "--structure", "bvh;kdtree"}, "--html"},
+      {"SeveralInOneJson", {"inspect", "builtin:cornell", "--structure", "bvh;kdtree", "--json", "i.json"}, "--json is of one structure"},
+      {"TooManyOnAPage", {"inspect", "builtin:cornell", "--structure", "bvh;bvh;bvh;bvh;bvh;bvh;bvh", "--html", "i.html"}, "at most 6"},
+      {"NoNodesToShow", {"inspect", "builtin:cornell", "--structure", "brute", "--html", "i.html"}, "no nodes"},
       {"ValueForFlag", {"structures", "--json", "file"}, "file"},
   };
   // Numbers, each wrong in the same ways.

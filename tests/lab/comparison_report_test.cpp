@@ -25,9 +25,12 @@ Comparison two_rows() {
   good.ray_count = 1000;
   good.mrays_per_s = {2.0, 1.0, 3.0};
   good.ratio_to_first = {1.0, 1.0, 1.0};
-  good.nodes_per_ray = 12.5;
-  good.tests_per_ray = 3.25;
+  good.rays = "primary";
+  good.work = {{12.5, 20, 33}, {3.25, 6, 9}, {{8, 400}, {12, 600}}};
+  good.is_described = good.is_counted = true;
   good.build_seconds = {0.5, 0.25, 0.75};
+  good.build_seconds_one_thread = {1.0, 0.75, 1.25};
+  good.duplication = 1.0625;
   good.bytes = 2048;
   good.expected_cost = 40.0;
   good.references = 1300;
@@ -37,6 +40,7 @@ Comparison two_rows() {
   good.end_point_overlap = 0.5;
   ComparisonRow bad;
   bad.structure = "brute";
+  bad.rays = "primary";
   bad.ray_count = 10;
   bad.error = "out of memory";
   comparison.rows = {good, bad};
@@ -46,6 +50,8 @@ Comparison two_rows() {
 
 TEST(ComparisonReport, JsonHasTheAgreedKeys) {
   const nlohmann::ordered_json json = comparison_json(two_rows());
+  EXPECT_EQ(json.at("format"), "grove-compare");
+  EXPECT_EQ(json.at("version"), 1);
   EXPECT_EQ(json.at("scene"), "a \"scene\", of sorts");
   for (const char* key : {"cpu", "cores", "threads", "compiler", "commit", "os"}) EXPECT_TRUE(json.at("machine").contains(key)) << key;
   ASSERT_EQ(json.at("rows").size(), 2U);
@@ -61,6 +67,11 @@ TEST(ComparisonReport, JsonHasTheAgreedKeys) {
   EXPECT_EQ(row.at("end_point_overlap"), 0.5);
   EXPECT_TRUE(row.at("sibling_overlap").is_null());
   EXPECT_EQ(row.at("references"), 1300);
+  EXPECT_EQ(row.at("duplication"), 1.0625);
+  EXPECT_EQ(row.at("build_seconds_one_thread").at("median"), 1.0);
+  EXPECT_EQ(row.at("work").at("nodes"), (nlohmann::ordered_json{{"mean", 12.5}, {"p95", 20}, {"max", 33}}));
+  EXPECT_EQ(row.at("work").at("tests").at("p95"), 6);
+  EXPECT_EQ(row.at("steps_histogram"), nlohmann::ordered_json::parse("[[8, 400], [12, 600]]"));
   EXPECT_EQ(row.at("nodes"), 99);
   EXPECT_EQ(row.at("leaves"), 50);
   EXPECT_EQ(row.at("depth"), 7);
@@ -71,8 +82,8 @@ TEST(ComparisonReport, JsonHasTheAgreedKeys) {
 TEST(ComparisonReport, AFailedRowSaysWhyAndHasNoFigures) {
   const auto row = comparison_json(two_rows()).at("rows").at(1);
   EXPECT_EQ(row.at("error"), "out of memory");
-  for (const char* key :
-       {"mrays_per_s", "nodes_per_ray", "build_seconds", "bytes", "mismatches", "end_point_overlap", "references", "depth"})
+  for (const char* key : {"mrays_per_s", "nodes_per_ray", "build_seconds", "bytes", "mismatches", "end_point_overlap", "references",
+                          "depth", "work", "steps_histogram", "build_seconds_one_thread"})
     EXPECT_TRUE(row.at(key).is_null()) << key;
   EXPECT_THAT(comparison_table(two_rows()), HasSubstr("failed: brute on primary rays: out of memory"));
 }
@@ -94,9 +105,11 @@ TEST(ComparisonReport, CsvQuotesWhatNeedsIt) {
   std::getline(lines, heading);
   std::getline(lines, good);
   std::getline(lines, bad);
-  EXPECT_EQ(good, "\"a \"\"scene\"\", of sorts\",primary,bvh,1000,2,1,3,1,12.5,3.25,0.5,0.25,0.75,2048,40,0.5,,1300,99,50,7,0,");
-  EXPECT_EQ(bad, "\"a \"\"scene\"\", of sorts\",primary,brute,10,,,,,,,,,,,,,,,,,,,out of memory");
-  EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 22);
+  EXPECT_EQ(good,
+            "\"a \"\"scene\"\", of "
+            "sorts\",primary,bvh,1000,2,1,3,1,12.5,20,33,3.25,6,9,0.5,0.25,0.75,1,0.75,1.25,2048,40,0.5,,1300,1.0625,99,50,7,0,");
+  EXPECT_EQ(bad, "\"a \"\"scene\"\", of sorts\",primary,brute,10,,,,,,,,,,,,,,,,,,,,,,,,,,,out of memory");
+  EXPECT_EQ(std::count(heading.begin(), heading.end(), ','), 30);
 }
 
 TEST(ComparisonReport, SaysWhenOnlyASampleWasChecked) {

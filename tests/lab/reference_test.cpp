@@ -30,13 +30,13 @@ class ReferenceTest : public ::testing::Test {
 };
 
 TEST_F(ReferenceTest, RightHitsHaveNoMismatches) {
-  Reference reference(brute_.top(), 212, Query::closest, rays_, 1'000'000);
+  Reference reference(brute_.top(), 212, ray_set("", rays_, Query::closest), 1'000'000);
   EXPECT_EQ(reference.sampled_count(), 1000U);
   EXPECT_EQ(reference.count_mismatches(hits_), 0U);
 }
 
 TEST_F(ReferenceTest, AnyBitCounts) {
-  Reference reference(brute_.top(), 212, Query::closest, rays_, 1'000'000);
+  Reference reference(brute_.top(), 212, ray_set("", rays_, Query::closest), 1'000'000);
   hits_[1].t = std::nextafter(hits_[1].t, 0.0F);
   hits_[500].u = -hits_[500].u;
   hits_[998].primitive ^= 1U;
@@ -45,7 +45,7 @@ TEST_F(ReferenceTest, AnyBitCounts) {
 }
 
 TEST_F(ReferenceTest, ASmallBudgetChecksASampleAndTheOthersAgainstTheFirst) {
-  Reference reference(brute_.top(), 212, Query::closest, rays_, 212 * 100);
+  Reference reference(brute_.top(), 212, ray_set("", rays_, Query::closest), 212 * 100);
   EXPECT_EQ(reference.sampled_count(), 100U);
   std::vector<Hit> wrong = hits_;
   wrong[10].primitive ^= 1U;  // in the sample of every tenth ray
@@ -55,7 +55,7 @@ TEST_F(ReferenceTest, ASmallBudgetChecksASampleAndTheOthersAgainstTheFirst) {
 }
 
 TEST_F(ReferenceTest, ChecksAnEvenPartOfTheRays) {
-  Reference reference(brute_.top(), 212, Query::closest, rays_, 1'000'000);
+  Reference reference(brute_.top(), 212, ray_set("", rays_, Query::closest), 1'000'000);
   std::vector<Hit> part;
   for (std::size_t i = 0; i < hits_.size(); i += 3) part.push_back(hits_[i]);
   EXPECT_EQ(reference.count_mismatches(part, 3), 0U);
@@ -64,7 +64,7 @@ TEST_F(ReferenceTest, ChecksAnEvenPartOfTheRays) {
 }
 
 TEST_F(ReferenceTest, APartDoesNotSettleWhatIsRight) {
-  Reference reference(brute_.top(), 212, Query::closest, rays_, 212 * 100);
+  Reference reference(brute_.top(), 212, ray_set("", rays_, Query::closest), 212 * 100);
   std::vector<Hit> wrong(500);
   for (std::size_t k = 0; k < wrong.size(); ++k) wrong[k] = hits_[2 * k];
   wrong[1].primitive ^= 1U;  // ray 2, not in the sample of every tenth ray
@@ -74,8 +74,8 @@ TEST_F(ReferenceTest, APartDoesNotSettleWhatIsRight) {
 }
 
 TEST_F(ReferenceTest, ChecksAtLeastOneRay) {
-  EXPECT_EQ(Reference(brute_.top(), 212, Query::any, rays_, 0).sampled_count(), 1U);
-  EXPECT_EQ(Reference(brute_.top(), 212, Query::any, {}, 1000).sampled_count(), 0U);
+  EXPECT_EQ(Reference(brute_.top(), 212, ray_set("", rays_, Query::any), 0).sampled_count(), 1U);
+  EXPECT_EQ(Reference(brute_.top(), 212, ray_set("", {}, Query::any), 1000).sampled_count(), 0U);
 }
 
 }  // namespace

@@ -64,6 +64,25 @@ TEST_P(FastBatch, FindsWhatBruteForceFinds) {
   }
 }
 
+TEST_P(FastBatch, SingleRaysFindTheSame) {
+  for (const NamedGeometry& named : matrix_geometries()) {
+    if (!std::holds_alternative<std::shared_ptr<const TriangleMesh>>(named.geometry)) continue;
+    const auto oracle = build(named.geometry, "brute");
+    const auto structure = build(named.geometry, "fast");
+    TraversalCounts counts;
+    for (const Ray& ray : with_long_and_short_directions(matrix_rays(named.geometry, 40, 11))) {
+      const Hit expected = oracle->closest_hit(ray, nullptr);
+      ASSERT_TRUE(same_bits(structure->closest_hit(ray, nullptr), expected)) << named.name;
+      ASSERT_TRUE(same_bits(structure->closest_hit(ray, &counts), expected)) << named.name << ", with counters";
+      ASSERT_EQ(structure->any_hit(ray, nullptr), static_cast<bool>(expected)) << named.name;
+      ASSERT_EQ(structure->any_hit(ray, &counts), static_cast<bool>(expected)) << named.name << ", with counters";
+    }
+    if (std::visit([](const auto& set) { return set->size(); }, named.geometry) < 5) continue;
+    EXPECT_GT(counts.nodes_visited, 0U) << named.name;
+    EXPECT_GE(counts.primitives_tested, counts.leaves_entered) << named.name;
+  }
+}
+
 TEST_P(FastBatch, CountsTheSameInAnyBatch) {
   const GeometryPointer geometry = std::make_shared<const TriangleMesh>(random_triangles(1500, 0.2F, 3));
   const auto structure = build(geometry, "fast");

@@ -20,6 +20,11 @@ namespace grove::test {
   return {};
 }
 
+/// Whether a family builds one of the others, over which the matrix runs anyway: a test each is enough for its keys.
+[[nodiscard]] inline bool builds_others(std::string_view family) {
+  return family == "auto";
+}
+
 /// The representative specs of all families.
 [[nodiscard]] inline std::vector<std::string> representatives() {
   std::vector<std::string> specs;

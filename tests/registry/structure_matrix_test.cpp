@@ -36,16 +36,16 @@ void add_new(std::vector<std::string>& specs, const std::vector<std::string>& ot
 std::vector<std::string> listed_specs() {
   std::vector<std::string> specs = representatives();
   for (const StructureFamily& family : structure_families())
-    if (combined_specs(family.name).empty()) add_new(specs, specs_of(family));
+    if (combined_specs(family.name).empty() && !builds_others(family.name)) add_new(specs, specs_of(family));
   return specs;
 }
 
-// What the matrix leaves out of the families whose keys are combined: each value on its own, and the splits with some.
+// What the matrix leaves out of the families whose keys are combined or that build others: each value on its own, and the splits with some.
 std::vector<std::string> left_out_specs() {
   std::vector<std::string> specs = listed_specs();
   const std::size_t listed = specs.size();
   for (const StructureFamily& family : structure_families())
-    if (!combined_specs(family.name).empty()) add_new(specs, specs_of(family));
+    if (!combined_specs(family.name).empty() || builds_others(family.name)) add_new(specs, specs_of(family));
   for (const char* const split : {"sah", "binned", "object-median", "spatial-median"})
     for (const char* const rest :
          {"walk=ropes", "walk=ropes,clip=false", "mailbox=false,clip=false,empty-bonus=0", "walk=ropes,mailbox=false,max-depth=4"})

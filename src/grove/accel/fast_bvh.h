@@ -122,7 +122,8 @@ class FastBvh {
   /// reached once, orders permutations, ids below `primitive_count`, depth and references as found. O(nodes + references).
   [[nodiscard]] std::string validate(std::size_t primitive_count) const;
 
-  /// Calls visit(box, depth, unit, count) for each node and leaf in depth-first order, parents first; count is 0 for an interior node.
+  /// Calls visit(box, depth, number, count) for each node and leaf in depth-first order, parents first; count is 0 for an interior node. The number
+  /// of a leaf is the unit where its block begins.
   template <typename Visitor>
   void visit(const Visitor& visitor) const;
 
@@ -147,7 +148,7 @@ void FastBvh::visit(const Visitor& visitor) const {
     const Pending top = stack.back();
     stack.pop_back();
     const bool is_leaf = top.child.is_leaf();
-    visitor(top.box, top.depth, top.child.unit(), is_leaf ? block(top.child).count() : 0);
+    visitor(top.box, top.depth, is_leaf ? top.child.unit() : top.child.node(), is_leaf ? block(top.child).count() : 0);
     if (is_leaf) continue;
     const FastNode& node = nodes()[top.child.node()];
     for (int i = FastNode::kWidth - 1; i >= 0; --i)

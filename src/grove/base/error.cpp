@@ -1,5 +1,7 @@
 #include "grove/base/error.h"
 
+#include <new>
+
 namespace grove {
 namespace {
 
@@ -17,5 +19,9 @@ std::string located(std::string_view file, std::string_view place, std::string_v
 }  // namespace
 
 InputError::InputError(std::string_view file, std::string_view place, std::string_view problem) : Error(located(file, place, problem)) {}
+
+std::string reason_of(const std::exception& exception) {
+  return dynamic_cast<const std::bad_alloc*>(&exception) != nullptr ? "out of memory" : exception.what();
+}
 
 }  // namespace grove

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -33,5 +34,8 @@ class UsageError : public Error {
  public:
   using Error::Error;
 };
+
+/// What to tell a person who goes on without what threw: "out of memory" for std::bad_alloc, else its text.
+[[nodiscard]] std::string reason_of(const std::exception& exception);
 
 }  // namespace grove

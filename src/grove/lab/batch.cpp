@@ -41,6 +41,15 @@ void trace(const Accelerator& accelerator, Query query, std::span<const Ray> ray
   });
 }
 
+void trace_counted(const Accelerator& accelerator, Query query, std::span<const Ray> rays, std::span<Hit> hits,
+                   std::span<TraversalCounts> counts) {
+  GROVE_CHECK(rays.size() == hits.size() && rays.size() == counts.size());
+  parallel_chunks(rays.size(), kBatchSize, [&](std::size_t /*chunk*/, std::size_t first, std::size_t last) {
+    const std::size_t count = last - first;
+    trace_batch(accelerator, query, rays.subspan(first, count), hits.subspan(first, count), counts.subspan(first, count));
+  });
+}
+
 TraversalCounts trace_counted(const Accelerator& accelerator, Query query, std::span<const Ray> rays, std::span<Hit> hits) {
   GROVE_CHECK(rays.size() == hits.size());
   std::vector<TraversalCounts> sums((rays.size() + kBatchSize - 1) / kBatchSize);

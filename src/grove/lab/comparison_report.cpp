@@ -4,6 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "grove/lab/advice.h"
+#include "grove/lab/break_even.h"
+#include "grove/lab/predictions.h"
+
 namespace grove {
 namespace {
 
@@ -13,43 +17,68 @@ Json optional_json(const std::optional<double>& figure) {
   return figure ? Json(*figure) : Json(nullptr);
 }
 
+Json count_spread_json(const CountSpread& spread) {
+  return {{"mean", spread.mean}, {"p95", spread.p95}, {"max", spread.max}};
+}
+
+Json update_json(const std::optional<UpdateTrial>& update) {
+  if (!update) return nullptr;
+  return {{"method", name_of(update->method)}, {"seconds", update->seconds}};
+}
+
+Json steps_json(std::span<const StepsBin> bins) {
+  Json json = Json::array();
+  for (const StepsBin& bin : bins) json.push_back({bin.first, bin.rays});
+  return json;
+}
+
 Json row_json(const ComparisonRow& row) {
   const auto unless_missing = [](bool present, const Json& value) { return present ? value : Json(nullptr); };
-  Json json{{"structure", row.structure},
-            {"rays", name_of(row.rays)},
-            {"ray_count", row.ray_count},
-            {"mrays_per_s", unless_missing(row.is_timed(), spread_json(row.mrays_per_s))},
-            {"nodes_per_ray", unless_missing(row.is_counted(), row.nodes_per_ray)},
-            {"tests_per_ray", unless_missing(row.is_counted(), row.tests_per_ray)},
-            {"build_seconds", unless_missing(row.is_built(), spread_json(row.build_seconds))},
-            {"bytes", unless_missing(row.is_counted(), row.bytes)},
-            {"expected_cost", unless_missing(row.is_counted(), row.expected_cost)},
-            {"end_point_overlap", optional_json(row.end_point_overlap)},
-            {"sibling_overlap", optional_json(row.sibling_overlap)},
-            {"references", unless_missing(row.is_counted(), row.references)},
-            {"nodes", unless_missing(row.is_counted(), row.nodes)},
-            {"leaves", unless_missing(row.is_counted(), row.leaves)},
-            {"depth", unless_missing(row.is_counted(), row.depth)},
-            {"mismatches", unless_missing(row.is_counted(), row.mismatches)},
-            {"ratio_to_first", unless_missing(row.is_timed(), spread_json(row.ratio_to_first))}};
+  Json json{
+      {"structure", row.structure},
+      {"rays", row.rays},
+      {"ray_count", row.ray_count},
+      {"mrays_per_s", unless_missing(row.is_timed(), spread_json(row.mrays_per_s))},
+      {"nodes_per_ray", unless_missing(row.is_counted, row.nodes_per_ray())},
+      {"tests_per_ray", unless_missing(row.is_counted, row.tests_per_ray())},
+      {"build_seconds", unless_missing(row.is_built(), spread_json(row.build_seconds))},
+      {"build_seconds_one_thread", unless_missing(row.build_seconds_one_thread.median > 0.0, spread_json(row.build_seconds_one_thread))},
+      {"update", update_json(row.update)},
+      {"bytes", unless_missing(row.is_described, row.bytes)},
+      {"expected_cost", unless_missing(row.is_described, row.expected_cost)},
+      {"end_point_overlap", optional_json(row.end_point_overlap)},
+      {"sibling_overlap", optional_json(row.sibling_overlap)},
+      {"references", unless_missing(row.is_described, row.references)},
+      {"duplication", optional_json(row.duplication)},
+      {"nodes", unless_missing(row.is_described, row.nodes)},
+      {"leaves", unless_missing(row.is_described, row.leaves)},
+      {"depth", unless_missing(row.is_described, row.depth)},
+      {"mismatches", unless_missing(row.is_counted, row.mismatches)},
+      {"ratio_to_first", unless_missing(row.is_timed() && row.ratio_to_first.median > 0.0, spread_json(row.ratio_to_first))},
+      {"work",
+       unless_missing(row.is_counted, {{"nodes", count_spread_json(row.work.nodes)}, {"tests", count_spread_json(row.work.tests)}})},
+      {"steps_histogram", unless_missing(row.is_counted, steps_json(row.work.steps))}};
   if (!row.error.empty()) json["error"] = row.error;
   return json;
 }
 
-/// In quotes where the text holds what would end the field.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
+Json heat_maps_json(std::span<const HeatMap> maps) {
+  Json list = Json::array();
+  for (const HeatMap& map : maps) list.push_back({{"structure", map.structure}, {"max", map.max}, {"steps", heat_map_base64(map)}});
+  return {{"width", kHeatMapWidth}, {"height", kHeatMapHeight}, {"maps", std::move(list)}};
 }
 
-std::string csv_optional(const std::optional<double>& figure) {
-  return figure ? fmt::format("{}", *figure) : "";
-}
-
-std::string csv_spread(bool present, const Spread& spread) {
-  return present ? fmt::format("{},{},{}", spread.median, spread.min, spread.max) : ",,";
+Json break_even_json(std::span<const ComparisonRow> rows) {
+  Json list = Json::array();
+  for (const BreakEven& one : break_even(rows)) {
+    Json curves = Json::array();
+    for (const ImageTime& time : one.times)
+      curves.push_back({{"structure", time.structure}, {"build_seconds", time.build_seconds}, {"seconds_per_ray", time.seconds_per_ray}});
+    Json best = Json::array();
+    for (const QuickestFrom& from : one.quickest) best.push_back({{"from_rays", from.rays}, {"structure", from.structure}});
+    list.push_back({{"rays", one.rays}, {"curves", std::move(curves)}, {"best", std::move(best)}});
+  }
+  return list;
 }
 
 }  // namespace
@@ -68,33 +97,28 @@ Json spread_json(const Spread& spread) {
 Json comparison_json(const Comparison& comparison) {
   Json rows = Json::array();
   for (const ComparisonRow& row : comparison.rows) rows.push_back(row_json(row));
-  return {{"scene", comparison.scene},
-          {"primitives", comparison.primitives},
-          {"ray_count", comparison.ray_count},
-          {"rounds", comparison.rounds},
-          {"reference_rays", comparison.reference_rays},
-          {"machine", machine_json(comparison.machine)},
-          {"rows", std::move(rows)},
-          {"notes", comparison.notes}};
-}
-
-std::string comparison_csv(const Comparison& comparison) {
-  std::string text =
-      "scene,rays,structure,ray_count,mrays_per_s_median,mrays_per_s_min,mrays_per_s_max,ratio_to_first,nodes_per_ray,tests_per_ray,"
-      "build_seconds_median,build_seconds_min,build_seconds_max,bytes,expected_cost,end_point_overlap,sibling_overlap,references,nodes,"
-      "leaves,depth,mismatches,error\n";
-  for (const ComparisonRow& row : comparison.rows) {
-    const std::string ratio = row.is_timed() ? fmt::format("{}", row.ratio_to_first.median) : "";
-    const std::string counts = row.is_counted() ? fmt::format("{},{}", row.nodes_per_ray, row.tests_per_ray) : ",";
-    const std::string sizes = row.is_counted() ? fmt::format("{},{}", row.bytes, row.expected_cost) : ",";
-    const std::string quality = csv_optional(row.end_point_overlap) + ',' + csv_optional(row.sibling_overlap);
-    const std::string nodes =
-        row.is_counted() ? fmt::format("{},{},{},{},{}", row.references, row.nodes, row.leaves, row.depth, row.mismatches) : ",,,,";
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(comparison.scene), name_of(row.rays), csv_field(row.structure),
-                        row.ray_count, csv_spread(row.is_timed(), row.mrays_per_s), ratio, counts,
-                        csv_spread(row.is_built(), row.build_seconds), sizes, quality, nodes, csv_field(row.error));
-  }
-  return text;
+  Json json{{"format", "grove-compare"},
+            {"version", 1},
+            {"scene", comparison.scene},
+            {"primitives", comparison.primitives},
+            {"ray_count", comparison.ray_count},
+            {"rounds", comparison.rounds},
+            {"complete", comparison.is_complete},
+            {"reference_rays", comparison.reference_rays},
+            {"machine", machine_json(comparison.machine)},
+            {"command", comparison.command},
+            {"date", comparison.date},
+            {"rows", std::move(rows)},
+            {"notes", comparison.notes}};
+  json["break_even"] = break_even_json(comparison.rows);
+  json["predictions"] = Json::array();
+  for (const ReportSection& section : predictions(comparison.rows)) json["predictions"].push_back(section_json(section));
+  if (comparison.matched_memory) json["matched_memory"] = section_json(*comparison.matched_memory);
+  json["advice"] = Json::array();
+  for (const Advice& one : advise(comparison)) json["advice"].push_back({{"use", one.use}, {"structure", one.structure}, {"why", one.why}});
+  if (comparison.auto_choice) json["auto"] = {{"structure", comparison.auto_choice->structure}, {"reason", comparison.auto_choice->reason}};
+  if (!comparison.heat_maps.empty()) json["heat_maps"] = heat_maps_json(comparison.heat_maps);
+  return json;
 }
 
 }  // namespace grove

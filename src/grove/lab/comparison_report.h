@@ -17,8 +17,10 @@ namespace grove {
 /// follow.
 [[nodiscard]] std::string comparison_table(const Comparison& comparison);
 
-/// scene, machine and rows: structure, rays, ray_count, mrays_per_s, nodes_per_ray, tests_per_ray, build_seconds, bytes, expected_cost,
-/// end_point_overlap, sibling_overlap, references, nodes, leaves, depth, mismatches, ratio_to_first. A failed row has an `error`, and null for each figure that it lacks.
+/// What follows from the tables: from how many rays on which structure is quickest, what matching memory gave, and advice for each use.
+[[nodiscard]] std::string comparison_advice(const Comparison& comparison);
+
+/// The shape "grove-compare" of docs/command-line.md. A failed row has an `error`, and null for each figure that it lacks.
 [[nodiscard]] nlohmann::ordered_json comparison_json(const Comparison& comparison);
 
 /// A heading and one line a row, comma-separated as RFC 4180 has it, except that lines end with a newline alone.

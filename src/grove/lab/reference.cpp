@@ -6,15 +6,13 @@
 
 namespace grove {
 
-Reference::Reference(const Accelerator& brute, std::uint64_t primitive_count, Query query, std::span<const Ray> rays,
-                     std::uint64_t test_budget)
+Reference::Reference(const Accelerator& brute, std::uint64_t primitive_count, const RaySet& rays, std::uint64_t test_budget)
     : hits_(rays.size()) {
   const std::uint64_t affordable = std::max<std::uint64_t>(1, test_budget / std::max<std::uint64_t>(1, primitive_count));
   stride_ = std::max<std::uint64_t>(1, (rays.size() + affordable - 1) / affordable);
-  std::vector<Ray> sample;
-  for (std::size_t i = 0; i < rays.size(); i += stride_) sample.push_back(rays[i]);
+  const RaySet sample = rays.every(stride_);
   std::vector<Hit> answers(sample.size());
-  trace(brute, query, sample, answers);
+  trace(brute, sample, answers);
   for (std::size_t i = 0; i < answers.size(); ++i) hits_[i * stride_] = answers[i];
   sampled_count_ = sample.size();
 }

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "grove/lab/batch.h"
+#include "grove/lab/ray_set.h"
 
 namespace grove {
 
@@ -14,7 +14,7 @@ class Reference {
  public:
   /// Traces as many of `rays`, evenly chosen, as cost `test_budget` tests when each tests all of the scene's `primitive_count`
   /// primitives; at least one. `brute` must test every primitive.
-  Reference(const Accelerator& brute, std::uint64_t primitive_count, Query query, std::span<const Ray> rays, std::uint64_t test_budget);
+  Reference(const Accelerator& brute, std::uint64_t primitive_count, const RaySet& rays, std::uint64_t test_budget);
 
   /// The number of answers that differ, in any bit of any field, from the right ones; hits[k] answers ray k * `stride`. The first call
   /// with all rays settles those outside the sample; until then they count as right.

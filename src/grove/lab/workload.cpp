@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "grove/base/check.h"
 #include "grove/base/error.h"
 #include "grove/base/parallel.h"
 #include "grove/base/random.h"
@@ -14,7 +15,7 @@
 namespace grove {
 namespace {
 
-constexpr std::array kAllKinds{RayKind::primary, RayKind::diffuse, RayKind::shadow, RayKind::random};
+constexpr std::array kAllKinds{RayKind::primary, RayKind::diffuse, RayKind::shadow, RayKind::random, RayKind::recorded};
 constexpr std::size_t kGrain = 4096;
 
 /// Ambient-occlusion segments are this part of the scene's diagonal.
@@ -110,6 +111,10 @@ std::vector<Ray> surface_rays(RayKind kind, std::span<const SurfacePoint> points
 }  // namespace
 
 std::span<const RayKind> ray_kinds() {
+  return std::span(kAllKinds).first(kAllKinds.size() - 1);
+}
+
+std::span<const RayKind> all_ray_kinds() {
   return kAllKinds;
 }
 
@@ -123,17 +128,19 @@ std::string_view name_of(RayKind kind) {
       return "shadow";
     case RayKind::random:
       return "random";
+    case RayKind::recorded:
+      return "recorded";
   }
   return "";
 }
 
-RayKind parse_ray_kind(std::string_view name) {
-  std::string allowed;
-  for (const RayKind kind : kAllKinds) {
+RayKind parse_ray_kind(std::string_view name, std::span<const RayKind> allowed) {
+  std::string known;
+  for (const RayKind kind : allowed) {
     if (name == name_of(kind)) return kind;
-    allowed += (allowed.empty() ? "" : ", ") + std::string(name_of(kind));
+    known += (known.empty() ? "" : ", ") + std::string(name_of(kind));
   }
-  throw UsageError("unknown kind of rays '" + std::string(name) + "'; the kinds are " + allowed);
+  throw UsageError("unknown kind of rays '" + std::string(name) + "'; the kinds are " + known);
 }
 
 Query query_of(RayKind kind) {
@@ -152,6 +159,7 @@ Camera workload_camera(const Scene& scene, std::string_view name) {
 
 std::vector<Ray> make_rays(RayKind kind, const Scene& scene, const SceneAccelerator& accelerator, const Camera& camera,
                            const WorkloadSettings& settings) {
+  GROVE_CHECK(kind != RayKind::recorded);
   const Box bounds = accelerator.top().bounds();
   if (kind == RayKind::primary) return primary_rays(camera, settings);
   if (kind == RayKind::random) return random_rays(bounds, settings);

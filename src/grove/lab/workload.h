@@ -17,13 +17,17 @@ enum class RayKind : std::uint8_t {
   diffuse,  ///< from what the camera sees, cosine-distributed about the surface's normal; closest hit
   shadow,   ///< the same as segments of a tenth of the scene's diagonal (ambient occlusion); any hit
   random,   ///< origins uniform in the scene's bounds and a little beyond, directions uniform; closest hit
+  recorded  ///< what a path-traced picture of the scene shoots, closest and any hits; see recorded_rays.h
 };
 
-/// All kinds, in the order of the enumeration.
+/// The kinds that `make_rays` makes: all but `recorded`, in the order of the enumeration.
 [[nodiscard]] std::span<const RayKind> ray_kinds();
+/// All kinds, in the order of the enumeration.
+[[nodiscard]] std::span<const RayKind> all_ray_kinds();
 [[nodiscard]] std::string_view name_of(RayKind kind);
-/// Throws UsageError that lists the kinds.
-[[nodiscard]] RayKind parse_ray_kind(std::string_view name);
+/// Throws UsageError that lists those allowed.
+[[nodiscard]] RayKind parse_ray_kind(std::string_view name, std::span<const RayKind> allowed = ray_kinds());
+/// Of a kind that `make_rays` makes.
 [[nodiscard]] Query query_of(RayKind kind);
 
 struct WorkloadSettings {
@@ -35,7 +39,7 @@ struct WorkloadSettings {
 /// scene's cameras.
 [[nodiscard]] Camera workload_camera(const Scene& scene, std::string_view name);
 
-/// Makes rays of one kind. The same scene and settings give the same rays, whatever the structure and the number of threads.
+/// Makes rays of one kind, but not recorded ones. The same scene and settings give the same rays, whatever the structure and the number of threads.
 /// Throws InputError when rays must start on a surface and neither camera nor random rays find one.
 [[nodiscard]] std::vector<Ray> make_rays(RayKind kind, const Scene& scene, const SceneAccelerator& accelerator, const Camera& camera,
                                          const WorkloadSettings& settings);

@@ -9,6 +9,7 @@
 #include "grove/build/quality/structure_quality.h"
 #include "grove/geometry/traceable.h"
 #include "grove/registry/update.h"
+#include "grove/traverse/traversal_record.h"
 
 namespace grove {
 
@@ -35,6 +36,11 @@ struct NodeView {
   std::uint32_t depth = 0;
   bool is_leaf = false;
   std::uint32_t reference_count = 0;  ///< leaves only
+  /// What TraversalStep calls it: different for all interior nodes, and for all leaves with references.
+  std::uint32_t number = 0;
+  /// Interior nodes that are cells: bit a is set where the cell is cut across axis a, at planes[a].
+  std::uint8_t cut_axes = 0;
+  Vec3 planes{0.0F};
 };
 
 /// A built structure over one geometry, its type erased: one virtual call a batch, none a node. Any number of threads may trace it;
@@ -67,6 +73,10 @@ class Accelerator : public Traceable {
 
   /// Any hits: occluded[i] becomes 1 where something is hit within [t_min, t_max] of rays[i], else 0. Otherwise as `intersect`.
   virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, std::span<TraversalCounts> counts = {}) const = 0;
+
+  /// The closest hit as closest_hit finds it, and in `record` each step of the way there; what it held is lost. Several times slower. The batch kernel of
+  /// `fast` may step through a node more or less than a ray on its own.
+  [[nodiscard]] virtual Hit record_steps(const Ray& ray, TraversalRecord& record) const = 0;
 
   /// A batch of one.
   [[nodiscard]] Hit intersect(const Ray& ray) const { return closest_hit(ray, nullptr); }

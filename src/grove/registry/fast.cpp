@@ -9,8 +9,8 @@
 #include "grove/registry/families.h"
 #include "grove/registry/hierarchy_accelerator.h"
 #include "grove/registry/update_by_rebuilding.h"
-#include "grove/traverse/fast_traversal.h"
 #include "grove/traverse/simd/fast_batch.h"
+#include "grove/traverse/simd/fast_single.h"
 #include "grove/traverse/wide_traversal.h"
 
 namespace grove {
@@ -43,11 +43,11 @@ struct FastStructure {
 
 template <typename C>
 void trace_closest(const FastStructure& structure, const TriangleMesh& /*mesh*/, const Ray& ray, Hit& hit, C& counter) {
-  trace_closest(structure.bvh, ray, hit, counter);
+  trace_single_closest(structure.bvh, ray, hit, counter.nested());
 }
 template <typename C>
 bool trace_any(const FastStructure& structure, const TriangleMesh& /*mesh*/, const Ray& ray, C& counter) {
-  return trace_any(structure.bvh, ray, counter);
+  return trace_single_any(structure.bvh, ray, counter.nested());
 }
 void trace_closest(const FastStructure& structure, const TriangleMesh& /*mesh*/, std::span<const Ray> rays, std::span<Hit> hits,
                    std::span<TraversalCounts> counts) {

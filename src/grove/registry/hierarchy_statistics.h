@@ -33,8 +33,8 @@ template <typename Hierarchy>
 /// Shows the nodes of a hierarchy for drawing, parents first.
 template <typename Hierarchy>
 void view_nodes(const Hierarchy& hierarchy, const std::function<void(const NodeView&)>& visit) {
-  hierarchy.visit([&](const Box& box, std::uint32_t depth, std::uint32_t /*first*/, std::uint32_t count) {
-    visit({box, depth, count > 0, count});
+  hierarchy.visit([&](const Box& box, std::uint32_t depth, std::uint32_t number, std::uint32_t count) {
+    visit({box, depth, count > 0, count, number});
   });
 }
 

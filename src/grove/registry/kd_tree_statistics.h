@@ -31,7 +31,13 @@ namespace grove {
 /// Shows the cells for drawing, parents first.
 inline void view_nodes(const KdTree& tree, const std::function<void(const NodeView&)>& visit) {
   tree.visit([&](const Box& cell, std::uint32_t depth, const KdNode& node) {
-    visit({cell, depth, node.is_leaf(), node.is_leaf() ? node.count() : 0});
+    if (node.is_leaf()) {
+      visit({cell, depth, true, node.count(), node.first()});
+      return;
+    }
+    NodeView view{cell, depth, false, 0, node.lower_child(), static_cast<std::uint8_t>(1U << node.axis())};
+    view.planes[static_cast<int>(node.axis())] = node.plane();
+    visit(view);
   });
 }
 

@@ -31,7 +31,13 @@ namespace grove {
 /// Shows the cells, as far as they lie in the bounds of what is in the tree, for drawing; parents first.
 inline void view_nodes(const Octree& tree, const std::function<void(const NodeView&)>& visit) {
   tree.visit([&](const Octree::Visited& visited) {
-    visit({visited.cell.intersection(tree.bounds), visited.depth, visited.is_leaf, visited.is_leaf ? visited.count : 0});
+    const Box cell = visited.cell.intersection(tree.bounds);
+    if (visited.is_leaf) {
+      visit({cell, visited.depth, true, visited.count, visited.first});
+      return;
+    }
+    const OctreeNode& node = tree.nodes[visited.node];
+    visit({cell, visited.depth, false, 0, visited.node, node.cut_axes, {node.planes[0], node.planes[1], node.planes[2]}});
   });
 }
 

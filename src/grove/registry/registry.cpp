@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "grove/registry/auto.h"
 #include "grove/registry/families.h"
 
 namespace grove {
@@ -10,7 +11,7 @@ namespace {
 // The one list of structures: tests, command, lab and bindings go through it.
 constexpr RegistryRow kRows[] = {
     {describe_brute, build_brute},     {describe_bvh, build_bvh},       {describe_fast, build_fast},
-    {describe_kd_tree, build_kd_tree}, {describe_octree, build_octree},
+    {describe_kd_tree, build_kd_tree}, {describe_octree, build_octree}, {describe_auto, build_auto},
 };
 
 constexpr std::string_view kRepresentativeSpecs[] = {

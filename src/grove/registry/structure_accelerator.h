@@ -78,13 +78,18 @@ class StructureAccelerator final : public Accelerator {
   }
 
   [[nodiscard]] Hit closest_hit(const Ray& ray, TraversalCounts* counts) const override {
-    if (counts == nullptr) return closest(ray, NoCounter{});
-    return closest(ray, Counter(*counts));
+    return counts == nullptr ? closest(ray) : closest(ray, *counts);
   }
 
   [[nodiscard]] bool any_hit(const Ray& ray, TraversalCounts* counts) const override {
     if (counts == nullptr) return any(ray, NoCounter{});
     return any(ray, Counter(*counts));
+  }
+
+  [[nodiscard]] Hit record_steps(const Ray& ray, TraversalRecord& record) const override {
+    record.steps.clear();
+    record.nested = {};
+    return closest(ray, [&](const Hit& hit) { return Recorder(record, hit); });
   }
 
   void intersect(std::span<const Ray> rays, std::span<Hit> hits, std::span<TraversalCounts> counts) const override {
@@ -97,10 +102,10 @@ class StructureAccelerator final : public Accelerator {
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
       if (counts.empty()) {
-        hits[i] = closest(rays[i], NoCounter{});
+        hits[i] = closest(rays[i]);
       } else {
         counts[i] = {};
-        hits[i] = closest(rays[i], Counter(counts[i]));
+        hits[i] = closest(rays[i], counts[i]);
       }
     }
   }
@@ -122,11 +127,20 @@ class StructureAccelerator final : public Accelerator {
   }
 
  private:
-  template <typename C>
-  Hit closest(const Ray& ray, C counter) const {
+  [[nodiscard]] Hit closest(const Ray& ray) const {
+    return closest(ray, [](const Hit& /*hit*/) { return NoCounter(); });
+  }
+  [[nodiscard]] Hit closest(const Ray& ray, TraversalCounts& counts) const {
+    return closest(ray, [&](const Hit& /*hit*/) { return Counter(counts); });
+  }
+
+  // `make_counter` is given the hit that the walk lowers.
+  template <typename MakeCounter>
+  Hit closest(const Ray& ray, const MakeCounter& make_counter) const {
     Hit hit;
     if (!ray.is_traceable()) return hit;
     hit.t = ray.t_max;
+    auto counter = make_counter(hit);
     trace_closest(state_.structure, *geometry_, ray, hit, counter);
     if (hit) {
       geometry_->locate(hit);

@@ -12,10 +12,9 @@
 #include "grove/base/parallel.h"
 #include "grove/base/timer.h"
 #include "grove/render/camera_rays.h"
-#include "grove/render/integrator/dimensions.h"
+#include "grove/render/film_ray.h"
 #include "grove/render/integrator/path.h"
 #include "grove/render/integrator/simple.h"
-#include "grove/render/sampling/warp.h"
 #include "grove/render/view.h"
 
 namespace grove {
@@ -132,11 +131,7 @@ class RenderJob {
  private:
   Film::Sample sample(std::uint32_t x, std::uint32_t y, std::uint32_t number, std::uint64_t& rays) const {
     const Sampler sampler(settings_.seed, x, y, number);
-    // The reconstruction filter is a tent two pixels wide, by importance sampling (Ernst, Stamminger, Greiner 2006, "Filter Importance
-    // Sampling"): each sample then belongs to one pixel alone.
-    const Vec2 u = sampler.sample_2d(kFilmDimension);
-    const Vec2 place(static_cast<float>(x) + 0.5F + sample_tent(u.x), static_cast<float>(y) + 0.5F + sample_tent(u.y));
-    const Ray ray = camera_.ray(place, sampler.sample_2d(kLensDimension));
+    const Ray ray = film_ray(camera_, x, y, sampler);
     RayTracer tracer(world_, sampler);
     Film::Sample result;
     switch (settings_.integrator) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ class SceneAccelerator {
   /// What to trace: hits name (instance, geometry = part, primitive). Without a top level `instance` is kInvalidId.
   [[nodiscard]] const Accelerator& top() const { return *top_; }
   [[nodiscard]] bool has_top_level() const { return !objects_.empty(); }
+  /// The structures that the instances of a top level refer to, by number of the scene's object; empty without a top level.
+  [[nodiscard]] std::span<const std::shared_ptr<const Accelerator>> objects() const { return objects_; }
   [[nodiscard]] const std::string& spec() const { return top_->spec(); }
   /// Sums over all levels, each object once (primitives: those of the objects, references: with those to instances); depth is the deepest
   /// way through both; the cost is that of the top level, plus each instance's object by the chance that a ray meets it.

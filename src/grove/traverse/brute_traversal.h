@@ -2,6 +2,7 @@
 
 #include "grove/accel/brute.h"
 #include "grove/geometry/geometry_concept.h"
+#include "grove/traverse/traversal_record.h"
 
 namespace grove {
 
@@ -9,10 +10,10 @@ namespace grove {
 template <Geometry G, typename C>
 void trace_closest(const Brute& /*structure*/, const G& geometry, const Ray& ray, Hit& hit, C& counter) {
   const typename G::PreparedRay prepared = geometry.prepare(ray);
-  counter.enter_leaf();
+  count_leaf(counter, 0);
   for (std::size_t i = 0; i < geometry.size(); ++i) {
     if (geometry.bounds(i).is_empty()) continue;
-    counter.test_primitive();
+    count_test(counter, static_cast<std::uint32_t>(i));
     geometry.intersect(i, prepared, hit, counter);
   }
 }
@@ -21,10 +22,10 @@ void trace_closest(const Brute& /*structure*/, const G& geometry, const Ray& ray
 template <Geometry G, typename C>
 bool trace_any(const Brute& /*structure*/, const G& geometry, const Ray& ray, C& counter) {
   const typename G::PreparedRay prepared = geometry.prepare(ray);
-  counter.enter_leaf();
+  count_leaf(counter, 0);
   for (std::size_t i = 0; i < geometry.size(); ++i) {
     if (geometry.bounds(i).is_empty()) continue;
-    counter.test_primitive();
+    count_test(counter, static_cast<std::uint32_t>(i));
     if (geometry.occluded(i, prepared, counter)) return true;
   }
   return false;

@@ -9,6 +9,7 @@
 #include "grove/geometry/geometry_concept.h"
 #include "grove/math/float4.h"
 #include "grove/traverse/slab_ray.h"
+#include "grove/traverse/traversal_record.h"
 
 namespace grove {
 
@@ -60,7 +61,7 @@ template <typename LeafTest, typename LeafPrefetch, typename C>
 void walk(const Bvh2& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, const LeafPrefetch& prefetch_leaf, C& counter) {
   if (bvh.references.empty()) return;
   if (bvh.nodes.empty()) {
-    counter.enter_leaf();
+    count_leaf(counter, 0);
     leaf(0U, static_cast<std::uint32_t>(bvh.references.size()));
     return;
   }
@@ -77,7 +78,7 @@ void walk(const Bvh2& bvh, const Ray& ray, const float& t_max, const LeafTest& l
   Bvh2Node::Child next{0, 0};
   for (;;) {
     const Bvh2Node& node = nodes[next.first];
-    counter.visit_node();
+    count_node(counter, next.first);
     // Either child may be next.
     for (const Bvh2Node::Child& child : node.child) {
       if (child.count == 0) {
@@ -106,7 +107,7 @@ void walk(const Bvh2& bvh, const Ray& ray, const float& t_max, const LeafTest& l
     bool pending = met != 0;
     while (!pending || next.count > 0) {
       if (pending) {
-        counter.enter_leaf();
+        count_leaf(counter, next.first);
         if (leaf(next.first, next.count)) return;
         limits = Float4{t_min, t_min, -t_max, -t_max};
       }

@@ -53,7 +53,7 @@ void trace_closest(const FastBvh& bvh, const Ray& ray, Hit& hit, C& counter) {
   const WatertightRay prepared(ray);
   const auto test_leaf = [&](const TriangleBlock& block) {
     const std::uint32_t count = block.count();
-    for (std::uint32_t place = 0; place < count; ++place) counter.test_primitive();
+    for (std::uint32_t place = 0; place < count; ++place) count_test(counter, block.primitive[place]);
     for (unsigned left = inside_edges(block, prepared) & ((1U << count) - 1); left != 0; left &= left - 1) {
       const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
       intersect_watertight(prepared, triangle_in(block, place).corners, &block.primitive[place], hit);
@@ -70,7 +70,7 @@ bool trace_any(const FastBvh& bvh, const Ray& ray, C& counter) {
   bool found = false;
   const auto test_leaf = [&](const TriangleBlock& block) {
     const std::uint32_t count = block.count();
-    for (std::uint32_t place = 0; place < count; ++place) counter.test_primitive();
+    for (std::uint32_t place = 0; place < count; ++place) count_test(counter, block.primitive[place]);
     for (unsigned left = inside_edges(block, prepared) & ((1U << count) - 1); left != 0 && !found; left &= left - 1) {
       const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
       found = occluded_watertight(prepared, triangle_in(block, place).corners);

@@ -70,7 +70,7 @@ void walk(const KdTree& tree, const KdRopes& ropes, const Ray& ray, const float&
     KdNode node = nodes[index];
     bool is_certain = true;
     while (!node.is_leaf()) {
-      counter.visit_node();
+      count_node(counter, node.lower_child());
       const std::uint32_t near = node.lower_child() + kd_ray.near_side(node.axis());
       if (crossing.last < kd_ray.entry(node.axis(), node.plane())) {
         index = near;
@@ -84,9 +84,9 @@ void walk(const KdTree& tree, const KdRopes& ropes, const Ray& ray, const float&
     }
     if (!is_certain) break;
     const KdRopedLeaf& roped = ropes.leaves[node.first()];
-    counter.visit_node();
+    count_cell(counter, node.first());
     if (roped.count > 0) {
-      counter.enter_leaf();
+      count_leaf(counter, node.first());
       if (leaf(roped.first, roped.count)) return;
     }
     const KdWayOut out(roped, kd_ray);

@@ -10,6 +10,7 @@
 #include "grove/accel/kd_tree.h"
 #include "grove/geometry/geometry_concept.h"
 #include "grove/traverse/kd_ray.h"
+#include "grove/traverse/traversal_record.h"
 
 namespace grove {
 
@@ -28,7 +29,7 @@ void walk_with_stack(const KdTree& tree, const KdRay& kd_ray, float first, float
   KdNode node = nodes[0];
   for (;;) {
     while (!node.is_leaf()) {
-      counter.visit_node();
+      count_node(counter, node.lower_child());
       // Both children are loaded while the distances are computed; which is next is then a matter of selects. The farther is always written to the
       // stack, which takes less than a wrong guess of whether it is needed.
       const KdNode* const pair = nodes + node.lower_child();
@@ -50,7 +51,7 @@ void walk_with_stack(const KdTree& tree, const KdRay& kd_ray, float first, float
       node = is_past ? far : near;
     }
     if (node.count() > 0) {
-      counter.enter_leaf();
+      count_leaf(counter, node.first());
       if (leaf(node.first(), node.count())) return;
     }
     // A tie must still be visited: the primitive there may have a lower id.

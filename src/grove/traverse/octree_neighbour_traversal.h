@@ -70,6 +70,7 @@ class OctreePath {
     levels_[0] = {to_float4(far), 0, 0};
   }
 
+  [[nodiscard]] std::uint32_t number() const { return levels_[level_].node; }
   [[nodiscard]] const OctreeNode& node() const { return nodes_[levels_[level_].node]; }
 
   /// Goes to an octant of the node. Returns whether that is a node; else it is the cell that far() is about.
@@ -140,13 +141,13 @@ void walk_by_neighbours(const Octree& tree, const Ray& ray, const float& t_max, 
   OctreeCrossing crossing{first, octree_ray.last_entry(tree.bounds, first)};
   const std::uint32_t* const leaf_first = tree.leaf_first.data();
   const auto test = [&](std::uint32_t number) {
-    counter.enter_leaf();
+    count_leaf(counter, leaf_first[number]);
     return leaf(leaf_first[number], leaf_first[number + 1] - leaf_first[number]);
   };
   OctreePath path(tree, octree_ray);
   for (bool is_node = true;;) {
     while (is_node) {
-      counter.visit_node();
+      count_node(counter, path.number());
       const OctreeNode& node = path.node();
       if (node.has_own != 0 && test(node.first_leaf)) return;
       const OctreeChoice choice(octree_ray, node, crossing);
@@ -156,10 +157,14 @@ void walk_by_neighbours(const Octree& tree, const Ray& ray, const float& t_max, 
       }
       is_node = path.enter(choice.octant);
     }
-    counter.visit_node();
     const OctreeNode& node = path.node();
     const std::uint32_t octant = path.octant();
-    if ((node.leaf_mask >> octant & 1U) != 0 && test(node.leaf(octant))) return;
+    if ((node.leaf_mask >> octant & 1U) != 0) {
+      count_cell(counter, leaf_first[node.leaf(octant)]);
+      if (test(node.leaf(octant))) return;
+    } else {
+      count_gap(counter, path.number(), octant);
+    }
     const OctreeWayOut out(octree_ray, path.far());
     // Whatever is left lies beyond. A tie must still be looked for.
     if (out.crossing.first > t_max || out.crossing.first > last) return;

@@ -10,6 +10,7 @@
 
 #include "grove/geometry/geometry_concept.h"
 #include "grove/traverse/octree_ray.h"
+#include "grove/traverse/traversal_record.h"
 
 namespace grove {
 
@@ -29,7 +30,7 @@ void walk_top_down(const Octree& tree, const OctreeRay& octree_ray, float first,
   const OctreeNode* const nodes = tree.nodes.data();
   const std::uint32_t* const leaf_first = tree.leaf_first.data();
   const auto test = [&](std::uint32_t number) {
-    counter.enter_leaf();
+    count_leaf(counter, leaf_first[number]);
     return leaf(leaf_first[number], leaf_first[number + 1] - leaf_first[number]);
   };
   Entry top{0, first, last};
@@ -37,7 +38,7 @@ void walk_top_down(const Octree& tree, const OctreeRay& octree_ray, float first,
     if ((top.number & kLeaf) != 0) {
       if (test(top.number & ~kLeaf)) return;
     } else {
-      counter.visit_node();
+      count_node(counter, top.number);
       const OctreeNode& node = nodes[top.number];
       if (node.has_own != 0) {
         if (test(node.first_leaf)) return;

@@ -7,6 +7,7 @@
 #include "grove/geometry/geometry_concept.h"
 #include "grove/geometry/leaf_storage.h"
 #include "grove/traverse/mailbox.h"
+#include "grove/traverse/traversal_record.h"
 
 namespace grove {
 
@@ -22,7 +23,7 @@ void closest_in_leaves(const G& geometry, const LeafStorage<G>& leaves, const st
   walk_leaves(hit.t, [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t slot = first; slot < first + count; ++slot) {
       if (mailbox.remembers(references[slot])) continue;
-      counter.test_primitive();
+      count_test(counter, references[slot]);
       leaves.intersect(geometry, references, slot, prepared, hit, counter);
     }
     return false;
@@ -38,7 +39,7 @@ bool any_in_leaves(const G& geometry, const LeafStorage<G>& leaves, const std::u
   walk_leaves(ray.t_max, [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t slot = first; slot < first + count && !found; ++slot) {
       if (mailbox.remembers(references[slot])) continue;
-      counter.test_primitive();
+      count_test(counter, references[slot]);
       found = leaves.occluded(geometry, references, slot, prepared, counter);
     }
     return found;

@@ -7,6 +7,7 @@
 
 #include "grove/geometry/geometry_concept.h"
 #include "grove/geometry/leaf_storage.h"
+#include "grove/traverse/traversal_record.h"
 
 namespace grove {
 
@@ -29,7 +30,7 @@ void trace_closest(const TraceableHierarchy<Hierarchy, G>& structure, const G& g
   const std::uint32_t* const references = structure.bvh.references.data();
   const auto test_leaf = [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t slot = first; slot < first + count; ++slot) {
-      counter.test_primitive();
+      count_test(counter, references[slot]);
       structure.leaves.intersect(geometry, references, slot, prepared, hit, counter);
     }
     return false;
@@ -46,7 +47,7 @@ bool trace_any(const TraceableHierarchy<Hierarchy, G>& structure, const G& geome
   bool found = false;
   const auto test_leaf = [&](std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t slot = first; slot < first + count && !found; ++slot) {
-      counter.test_primitive();
+      count_test(counter, references[slot]);
       found = structure.leaves.occluded(geometry, references, slot, prepared, counter);
     }
     return found;

@@ -9,6 +9,7 @@
 #include "grove/geometry/geometry_concept.h"
 #include "grove/traverse/bounding_sphere_test.h"
 #include "grove/traverse/oriented_box_test.h"
+#include "grove/traverse/traversal_record.h"
 #include "grove/traverse/unit_ray.h"
 
 namespace grove {
@@ -32,11 +33,11 @@ void walk(const VolumeBvh<V>& bvh, const Ray& ray, const float& t_max, const Lea
   const VolumeNode<V>* node = nodes;
   for (;;) {
     if (node->is_leaf != 0) {
-      counter.enter_leaf();
+      count_leaf(counter, node->first);
       if (leaf(node->first, std::uint32_t{node->count})) return;
       limit = unit_ray.distance(t_max);
     } else {
-      counter.visit_node();
+      count_node(counter, node->first);
       const std::uint32_t bottom = stack_size;
       const VolumeNode<V>* const end = nodes + node->first + node->count;
       for (const VolumeNode<V>* child = nodes + node->first; child != end; ++child) {

@@ -12,6 +12,7 @@
 #include "grove/geometry/geometry_concept.h"
 #include "grove/math/float4.h"
 #include "grove/traverse/slab_ray.h"
+#include "grove/traverse/traversal_record.h"
 
 namespace grove {
 
@@ -56,6 +57,16 @@ class WideSlabs {
   int near_[3];
 };
 
+/// What tells one leaf of a hierarchy from another: where its references, or its block, begin.
+template <typename Child>
+[[nodiscard]] std::uint32_t leaf_number(Child leaf) {
+  if constexpr (requires { leaf.unit(); }) {
+    return leaf.unit();
+  } else {
+    return leaf.first;
+  }
+}
+
 /// Walks the children that are leaves and that the ray meets, near to far. leaf(child) returns whether the walk is over; it may lower what `t_max` refers to.
 /// `Node` has `planes` as WideNode has, and children that know is_leaf() and node(). Node 0 must be there, and the ray traceable.
 template <typename Node, typename LeafTest, typename LeafPrefetch, typename C>
@@ -74,7 +85,7 @@ void walk_nodes(const Node* nodes, const Box& bounds, const Ray& ray, const floa
   const Float4 t_min = splat(ray.t_min > 0.0F ? ray.t_min : 0.0F);
   const Node* node = nodes;
   for (;;) {
-    counter.visit_node();
+    count_node(counter, static_cast<std::uint32_t>(node - nodes));
     float entry[kWidth];
     unsigned met = slabs.test(*node, t_min, splat(t_max), entry);
     const std::uint32_t bottom = stack_size;
@@ -104,7 +115,7 @@ void walk_nodes(const Node* nodes, const Box& bounds, const Ray& ray, const floa
         node = nodes + next.node();
         break;
       }
-      counter.enter_leaf();
+      count_leaf(counter, leaf_number(next));
       if (leaf(next)) return;
     }
   }
@@ -116,7 +127,7 @@ void walk(const WideBvh<kWidth>& bvh, const Ray& ray, const float& t_max, const 
           C& counter) {
   if (bvh.references.empty()) return;
   if (bvh.nodes.empty()) {
-    counter.enter_leaf();
+    count_leaf(counter, 0);
     leaf(0U, static_cast<std::uint32_t>(bvh.references.size()));
     return;
   }

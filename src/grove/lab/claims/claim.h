@@ -50,6 +50,7 @@ struct Claim {
 [[nodiscard]] std::span<const Claim> construction_claims();
 [[nodiscard]] std::span<const Claim> octree_r_claims();
 [[nodiscard]] std::span<const Claim> movement_claims();
+[[nodiscard]] std::span<const Claim> auto_claims();
 
 /// `all` where the claim is true of all cases, `none` of none; mixed between.
 [[nodiscard]] inline Verdict verdict_by_cases(std::size_t true_of, std::size_t cases) {

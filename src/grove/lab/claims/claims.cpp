@@ -9,8 +9,9 @@ namespace {
 /// By section of the review.
 std::vector<Claim> list_claims() {
   std::vector<Claim> claims;
-  for (const std::span<const Claim> some : {octree_form_claims(), octree_claims(), kd_tree_claims(), hierarchy_claims(), heuristic_claims(),
-                                            cost_model_claims(), construction_claims(), movement_claims(), octree_r_claims()})
+  for (const std::span<const Claim> some :
+       {octree_form_claims(), octree_claims(), kd_tree_claims(), hierarchy_claims(), heuristic_claims(), cost_model_claims(),
+        construction_claims(), movement_claims(), octree_r_claims(), auto_claims()})
     claims.insert(claims.end(), some.begin(), some.end());
   std::ranges::stable_sort(claims, {}, [](const Claim& claim) { return claim.source.substr(0, claim.source.find(',')); });
   return claims;

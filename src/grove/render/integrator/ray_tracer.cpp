@@ -11,11 +11,23 @@ constexpr int kMaxPasses = 1024;
 
 }  // namespace
 
+Hit RayTracer::closest_hit(const Ray& ray, std::uint32_t bounce) {
+  ++rays_traced_;
+  if (recording_ != nullptr) recording_->push_back({ray, bounce, false});
+  return world_->accelerator.closest_hit(ray, nullptr);
+}
+
+bool RayTracer::any_hit(const Ray& ray) {
+  ++rays_traced_;
+  if (recording_ != nullptr) recording_->push_back({ray, surfaces_, true});
+  return world_->accelerator.any_hit(ray, nullptr);
+}
+
 bool RayTracer::find_surface(const Ray& ray, SurfaceHit& result) {
+  const std::uint32_t bounce = surfaces_++;
   result.ray = ray;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
-    ++rays_traced_;
-    result.hit = world_->accelerator.closest_hit(result.ray, nullptr);
+    result.hit = closest_hit(result.ray, bounce);
     if (!result.hit) return false;
     result.point = world_->surfaces.at(result.ray, result.hit);
     if (!world_->materials.can_pass_light(result.point.material)) return true;
@@ -42,16 +54,12 @@ float RayTracer::transmittance(const SurfacePoint& point, const LightSample& sam
 }
 
 float RayTracer::transmittance(Ray ray) {
-  if (!world_->materials.any_can_pass_light()) {
-    ++rays_traced_;
-    return world_->accelerator.any_hit(ray, nullptr) ? 0.0F : 1.0F;
-  }
+  if (!world_->materials.any_can_pass_light()) return any_hit(ray) ? 0.0F : 1.0F;
   const bool is_finite = ray.t_max < std::numeric_limits<float>::infinity();
   const Vec3 end = is_finite ? ray.at(ray.t_max) : Vec3(0.0F);
   float passed = 1.0F;
   for (int pass = 0; pass < kMaxPasses; ++pass) {
-    ++rays_traced_;
-    const Hit hit = world_->accelerator.closest_hit(ray, nullptr);
+    const Hit hit = closest_hit(ray, surfaces_);
     if (!hit) return passed;
     if (!world_->materials.can_pass_light(world_->surfaces.material_of(hit))) return 0.0F;
     const SurfacePoint point = world_->surfaces.at(ray, hit);

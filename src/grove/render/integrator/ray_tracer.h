@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
+#include "grove/render/integrator/recorded_ray.h"
 #include "grove/render/prepared_scene.h"
 #include "grove/render/sampling/sampler.h"
 
@@ -17,7 +19,9 @@ struct SurfaceHit {
 /// Traces the rays of one camera sample through what lets light pass (alpha, interfaces), and counts them. For one thread.
 class RayTracer {
  public:
-  RayTracer(const PreparedScene& world, const Sampler& sampler) : world_(&world), sampler_(&sampler) {}
+  /// Every ray is appended to `recording` where that is not null; it must outlive the tracer.
+  RayTracer(const PreparedScene& world, const Sampler& sampler, std::vector<RecordedRay>* recording = nullptr)
+      : world_(&world), sampler_(&sampler), recording_(recording) {}
 
   /// The first surface along `ray` that stops it; a partly transparent one does by chance. False when there is none.
   [[nodiscard]] bool find_surface(const Ray& ray, SurfaceHit& result);
@@ -31,9 +35,14 @@ class RayTracer {
   [[nodiscard]] std::uint64_t rays_traced() const { return rays_traced_; }
 
  private:
+  [[nodiscard]] Hit closest_hit(const Ray& ray, std::uint32_t bounce);
+  [[nodiscard]] bool any_hit(const Ray& ray);
+
   const PreparedScene* world_;
   const Sampler* sampler_;
+  std::vector<RecordedRay>* recording_;
   std::uint64_t rays_traced_ = 0;
+  std::uint32_t surfaces_ = 0;  // looked for so far
   std::uint32_t chances_taken_ = 0;
 };
 

@@ -28,8 +28,10 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Of up to kMost rays at once.
+template <std::size_t kMost>
 class RaySetup {
-  using D = hn::CappedTag<float, 8>;
+  using D = hn::CappedTag<float, kMost>;
   using DU = hn::RebindToUnsigned<D>;
   using V = hn::Vec<D>;
 
@@ -54,6 +56,19 @@ class RaySetup {
     const D d;
     const auto load = [&](int row) { return hn::Load(d, lanes[row]); };
     prepare({{load(0), load(1), load(2)}, {load(3), load(4), load(5)}, load(6), load(7)});
+  }
+
+  // Sets up one ray, number 0.
+  HWY_INLINE void prepare(const Ray& ray) {
+    rays_ = &ray;
+    const D d;
+    const auto all = [&](const Vec3& v, V lanes[3]) {
+      for (int axis = 0; axis < 3; ++axis) lanes[axis] = hn::Set(d, v[axis]);
+    };
+    Rays rays{{}, {}, hn::Set(d, ray.t_min), hn::Set(d, ray.t_max)};
+    all(ray.origin, rays.origin);
+    all(ray.direction, rays.direction);
+    prepare(rays);
   }
 
   // Whether the kernel can take ray i. Not: rays that hit nothing by definition, and those whose numbers are not where the rounding above is

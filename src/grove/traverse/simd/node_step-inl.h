@@ -1,0 +1,138 @@
+// A ray's step through a node of the fast path, on the stack of its slot. Included once for each instruction set.
+
+#if defined(GROVE_NODE_STEP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GROVE_NODE_STEP_INL_H
+#undef GROVE_NODE_STEP_INL_H
+#else
+#define GROVE_NODE_STEP_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <bit>
+
+#include "grove/traverse/simd/batch_slot.h"
+#include "grove/traverse/simd/compaction-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace grove {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Where a node or block lies: the highest two bits are shifted out.
+template <typename T>
+[[nodiscard]] HWY_INLINE const T& place_of(const FastUnit* units, std::uint32_t word) {
+  const std::size_t offset = std::size_t{word << 2} * (sizeof(FastUnit) / 4);
+  return *reinterpret_cast<const T*>(reinterpret_cast<const char*>(units) + offset);
+}
+
+template <typename V>
+struct Interval {
+  V near;
+  V far;
+};
+
+template <typename D, typename V = hn::Vec<D>>
+HWY_INLINE Interval<V> slabs(D d, const FastNode& node, const BatchSlot& slot, std::size_t first) {
+  V near = hn::Set(d, slot.ray.t_min);
+  V far = hn::Set(d, slot.t);
+  const float* const rows = &node.planes[0][0][0];
+  for (int axis = 0; axis < 3; ++axis) {
+    const V inverse = hn::Set(d, slot.ray.inverse[axis]);
+    const V near_planes = hn::LoadU(d, rows + slot.ray.rows.near[axis] + first);
+    const V far_planes = hn::LoadU(d, rows + slot.ray.rows.far[axis] + first);
+    near = hn::Max(near, hn::MulAdd(near_planes, inverse, hn::Set(d, slot.ray.near_offset[axis])));
+    far = hn::Min(far, hn::MulAdd(far_planes, inverse, hn::Set(d, slot.ray.far_offset[axis])));
+  }
+  return {near, far};
+}
+
+template <bool kAny, typename D, typename V>
+HWY_INLINE void push_in_one(D d, const FastNode& node, BatchSlot& slot, std::size_t capacity, V near, V far) {
+  const hn::RebindToUnsigned<D> du;
+  const auto children = hn::LoadU(du, reinterpret_cast<const std::uint32_t*>(node.child));
+  std::uint32_t* const stack_child = slot.stack_child(capacity);
+  const std::uint32_t size = slot.stack_size;
+  std::uint32_t met = 0;
+  if constexpr (kAny) {
+    // Any hit needs no order: it costs more than it saves.
+    met = bits_of(d, hn::Le(near, far));
+    hn::StoreU(look_up(du, children, front_places(du, met)), du, stack_child + size);
+  } else {
+    const auto order = hn::Set(du, node.order[slot.ray.rows.octant]) >> hn::Mul(hn::Iota(du, 0), hn::Set(du, 3));
+    // The sign of the difference goes through the same order as the children. Unused places have a difference of minus infinity.
+    const V slack = look_up(d, hn::Sub(far, near), order);
+    met = ~bits_of(d, hn::Lt(slack, hn::Zero(d))) & 0xffU;
+    const auto places = look_up(du, order, front_places(du, met));
+    hn::StoreU(look_up(d, near, places), d, slot.stack_t() + size);
+    hn::StoreU(look_up(du, children, places), du, stack_child + size);
+  }
+  slot.stack_size = size + static_cast<std::uint32_t>(std::popcount(met));
+}
+
+HWY_INLINE void push_one_by_one(const FastNode& node, BatchSlot& slot, std::size_t capacity, const float* near, std::uint32_t met) {
+  const std::uint32_t order = node.order[slot.ray.rows.octant];
+  std::uint32_t* const stack_child = slot.stack_child(capacity);
+  std::uint32_t size = slot.stack_size;
+  for (int k = 0; k < FastNode::kWidth; ++k) {
+    const std::uint32_t place = order >> (3 * k) & 7U;
+    slot.stack_t()[size] = near[place];
+    stack_child[size] = std::bit_cast<std::uint32_t>(node.child[place]);
+    size += met >> place & 1U;
+  }
+  slot.stack_size = size;
+}
+
+// Pushes the children that are met, the nearest last. `capacity` is that of the slot's stack.
+template <bool kAny>
+HWY_INLINE void step_through(const FastNode& node, BatchSlot& slot, std::size_t capacity) {
+  const hn::CappedTag<float, FastNode::kWidth> d;
+  if constexpr (hn::MaxLanes(d) == FastNode::kWidth) {
+    const auto [near, far] = slabs(d, node, slot, 0);
+    push_in_one<kAny>(d, node, slot, capacity, near, far);
+  } else {
+    HWY_ALIGN float near_of[FastNode::kWidth];
+    std::uint32_t met = 0;
+    for (std::size_t first = 0; first < FastNode::kWidth; first += hn::MaxLanes(d)) {
+      const auto [near, far] = slabs(d, node, slot, first);
+      hn::Store(near, d, near_of + first);
+      met |= bits_of(d, hn::Le(near, far)) << first;
+    }
+    push_one_by_one(node, slot, capacity, near_of, met);
+  }
+}
+
+// Takes from the stack what begins behind the hit. A tie must still be visited: the primitive there may have a lower id.
+HWY_INLINE void drop_what_is_farther(BatchSlot& slot, std::size_t capacity) {
+  float* const stack_t = slot.stack_t();
+  std::uint32_t* const stack_child = slot.stack_child(capacity);
+  const std::uint32_t size = slot.stack_size;
+  std::uint32_t kept = 0;
+  const hn::CappedTag<float, kSlack> d;
+  if constexpr (hn::MaxLanes(d) == kSlack) {
+    const hn::RebindToUnsigned<decltype(d)> du;
+    for (std::uint32_t i = 0; i < size; i += kSlack) {
+      const auto t = hn::LoadU(d, stack_t + i);
+      const auto child = hn::LoadU(du, stack_child + i);
+      const std::uint32_t near = bits_of(d, hn::And(hn::Le(t, hn::Set(d, slot.t)), hn::FirstN(d, size - i)));
+      const auto places = front_places(du, near);
+      hn::StoreU(look_up(d, t, places), d, stack_t + kept);
+      hn::StoreU(look_up(du, child, places), du, stack_child + kept);
+      kept += static_cast<std::uint32_t>(std::popcount(near));
+    }
+  } else {
+    for (std::uint32_t i = 0; i < size; ++i) {
+      stack_t[kept] = stack_t[i];
+      stack_child[kept] = stack_child[i];
+      kept += stack_t[i] <= slot.t ? 1 : 0;
+    }
+  }
+  slot.stack_size = kept;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace grove
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,173 @@
+// The kernel of fast_single.h. Included once for each instruction set.
+
+#if defined(GROVE_SINGLE_RAY_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef GROVE_SINGLE_RAY_INL_H
+#undef GROVE_SINGLE_RAY_INL_H
+#else
+#define GROVE_SINGLE_RAY_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+#include "grove/traverse/fast_traversal.h"
+#include "grove/traverse/simd/batch_slot.h"
+#include "grove/traverse/simd/block_test-inl.h"
+#include "grove/traverse/simd/node_step-inl.h"
+#include "grove/traverse/simd/ray_setup-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace grove {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// One ray with nothing else in flight. kAny: any hit instead of the closest. kCounts: with counters.
+template <bool kAny, bool kCounts>
+class SingleRay {
+ public:
+  // `hit.t` is t_max; a hit is written there, for kAny its primitive as 0. Returns false where the ray or the hierarchy is none for this kernel.
+  HWY_INLINE static bool trace(const FastBvh& bvh, const Ray& ray, Hit& hit, TraversalCounts* counts) {
+    if (bvh.depth > kMostDepth) return false;
+    RaySetup<4> setup(bvh.bounds);
+    setup.prepare(ray);
+    if (!setup.is_regular(0)) return false;
+    SingleRay single(bvh.units(), hit, counts);
+    setup.copy(0, single.memory_.slot.ray);
+    single.run();
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t kMostDepth = 40;
+  static constexpr std::size_t kCapacity = ((FastNode::kWidth - 1) * (kMostDepth + 1) + 1 + kSlack + 15) / 16 * 16;
+
+  // A slot with its stack behind it, on the stack of the program.
+  struct Memory {
+    BatchSlot slot;
+    float stack_t[kCapacity];
+    std::uint32_t stack_child[kCapacity];
+  };
+  static_assert(offsetof(Memory, stack_t) == sizeof(BatchSlot));
+
+  HWY_INLINE SingleRay(const FastUnit* units, Hit& hit, TraversalCounts* counts) : units_(units), hit_(hit), counts_(counts) {
+    memory_.slot.t = hit.t;
+    memory_.slot.stack_size = 1;
+    memory_.stack_t[0] = -std::numeric_limits<float>::infinity();
+    memory_.stack_child[0] = kDone;
+  }
+
+  HWY_INLINE void run() {
+    BatchSlot& slot = memory_.slot;
+    std::uint32_t word = 0;
+    while (true) {
+      if (word >> 31 == 0) {
+        if constexpr (kCounts) ++counts_->nodes_visited;
+        if (step(place_of<FastNode>(units_, word), word)) continue;
+      } else if (word == kDone || test(place_of<TriangleBlock>(units_, word))) {
+        return;
+      }
+      word = memory_.stack_child[--slot.stack_size];
+      if constexpr (!kAny) {
+        // A tie must still be visited: the primitive there may have a lower id. The entry at the bottom is nearer than any hit.
+        while (memory_.stack_t[slot.stack_size] > slot.t) word = memory_.stack_child[--slot.stack_size];
+      }
+    }
+  }
+
+  // Goes to the nearest child that is met and pushes the others; returns false where none is. Mostly it is one or two: then the way to the next
+  // node is short, and the branches tell the processor where it leads before the slabs are done.
+  HWY_INLINE bool step(const FastNode& node, std::uint32_t& word) {
+    BatchSlot& slot = memory_.slot;
+    HWY_ALIGN float near_of[FastNode::kWidth];
+    const hn::CappedTag<float, FastNode::kWidth> d;
+    std::uint32_t met = 0;
+    for (std::size_t first = 0; first < FastNode::kWidth; first += hn::MaxLanes(d)) {
+      const auto [near, far] = slabs(d, node, slot, first);
+      if constexpr (!kAny) hn::Store(near, d, near_of + first);
+      met |= bits_of(d, hn::Le(near, far)) << first;
+    }
+    if (met == 0) return false;
+    std::uint32_t place = static_cast<std::uint32_t>(std::countr_zero(met));
+    met &= met - 1;
+    if (met == 0) {
+      word = std::bit_cast<std::uint32_t>(node.child[place]);
+      return true;
+    }
+    if ((met & (met - 1)) == 0) {
+      auto other = static_cast<std::uint32_t>(std::countr_zero(met));
+      if constexpr (!kAny) {
+        if (near_of[other] < near_of[place]) std::swap(place, other);
+        memory_.stack_t[slot.stack_size] = near_of[other];
+      }
+      memory_.stack_child[slot.stack_size++] = std::bit_cast<std::uint32_t>(node.child[other]);
+      word = std::bit_cast<std::uint32_t>(node.child[place]);
+    } else {
+      push_all(node, near_of, met | 1U << place);
+      word = memory_.stack_child[--slot.stack_size];
+    }
+    if constexpr (kCounts) counts_->stack_depth = std::max(counts_->stack_depth, slot.stack_size);
+    return true;
+  }
+
+  // In the node's order for the ray, the nearest last.
+  HWY_INLINE void push_all(const FastNode& node, const float* near_of, std::uint32_t met) {
+    if constexpr (kAny) {
+      for (; met != 0; met &= met - 1)
+        memory_.stack_child[memory_.slot.stack_size++] = std::bit_cast<std::uint32_t>(node.child[std::countr_zero(met)]);
+    } else {
+      push_one_by_one(node, memory_.slot, kCapacity, near_of, met);
+    }
+  }
+
+  // Returns whether that is all: a hit, where any will do.
+  HWY_INLINE bool test(const TriangleBlock& block) {
+    BatchSlot& slot = memory_.slot;
+    if constexpr (kCounts) {
+      counts_->primitives_tested += block.count();
+      ++counts_->leaves_entered;
+    }
+    const BlockFilter filter = filter_block<kAny>(slot.ray, slot.t, block);
+    if constexpr (kAny) {
+      if (filter.certain != 0) {
+        hit_.primitive = 0;
+        return true;
+      }
+    }
+    return filter.possible != 0 && settle(block, filter.possible);
+  }
+
+  HWY_INLINE bool settle(const TriangleBlock& block, std::uint32_t possible) {
+    BatchSlot& slot = memory_.slot;
+    const WatertightRay ray = slot.ray.triangle_ray();
+    for (; possible != 0; possible &= possible - 1) {
+      const auto place = static_cast<std::uint32_t>(std::countr_zero(possible));
+      const SingleTriangle triangle = triangle_in(block, place);
+      if constexpr (kAny) {
+        if (!occluded_watertight(ray, triangle.corners)) continue;
+        hit_.primitive = 0;
+        return true;
+      } else {
+        intersect_watertight(ray, triangle.corners, &block.primitive[place], hit_);
+      }
+    }
+    slot.t = hit_.t;
+    return false;
+  }
+
+  const FastUnit* const units_;
+  Hit& hit_;
+  TraversalCounts* const counts_;
+  Memory memory_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace grove
+HWY_AFTER_NAMESPACE();
+
+#endif
