@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <CLI/Option.hpp>
+#include <CLI/Validators.hpp>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "checkpoint.h"
+#include "grove/base/error.h"
 #include "grove/base/output_file.h"
 #include "grove/lab/structure_report.h"
 #include "grove/lab/text_table.h"
@@ -28,8 +32,8 @@ struct RenderOptions : CommonOptions {
   std::string integrator = "path";
   RenderSettings settings;
   DisplaySettings display;
-  std::string tile;
-  std::string samples;
+  std::optional<std::string> tile;
+  std::optional<std::string> samples;
   std::filesystem::path checkpoint;
   double checkpoint_interval = 60.0;
   bool restarts = false;
@@ -38,9 +42,15 @@ struct RenderOptions : CommonOptions {
 // Whatever can be found wrong before the scene is read.
 void check_command(RenderOptions& options) {
   options.settings.integrator = integrator_from_name(options.integrator);
-  if (!options.tile.empty()) parse_tile(options.tile, options.settings.part);
-  if (!options.samples.empty()) parse_samples(options.samples, options.settings.samples_per_pixel, options.settings.part);
+  if (options.tile) parse_tile(*options.tile, options.settings.part);
+  if (options.samples) parse_samples(*options.samples, options.settings.samples_per_pixel, options.settings.part);
   check_pictures(options.pictures);
+  for (const std::string& picture : options.pictures) {
+    const std::filesystem::path path = std::filesystem::path(picture).lexically_normal();
+    if (path != options.checkpoint.lexically_normal() || has_film({picture})) continue;
+    throw UsageError(fmt::format("--checkpoint: '{}' is the picture's name too; name another, such as {}", picture,
+                                 std::filesystem::path(picture).replace_extension(".film").string()));
+  }
   if (!options.json.empty()) check_writable(options.json);
 }
 
@@ -147,10 +157,12 @@ Verb add_render(CLI::App& program) {
       ->type_name("i/N");
   verb.add_option("--samples", options->samples, "Render samples a to b - 1 of each pixel, of the --spp that there are from 0 on")
       ->type_name("a:b");
-  CLI::Option* const checkpoint = verb.add_option("--checkpoint", options->checkpoint,
-                                                  "Save the film to this file at intervals, when interrupted and at the end; where "
-                                                  "it is there already, go on from it")
-                                      ->type_name("FILE");
+  CLI::Option* const checkpoint =
+      verb.add_option("--checkpoint", options->checkpoint,
+                      "Save the film to this file at intervals, when interrupted and at the end; where "
+                      "it is there already, go on from it")
+          ->type_name("FILE")
+          ->check(CLI::Validator([](const std::string& text) { return text.empty() ? "a file name is missing" : ""; }, ""));
   in_range(verb.add_option("--checkpoint-interval", options->checkpoint_interval, "Seconds from one saving to the next")
                ->type_name("SECONDS")
                ->capture_default_str()

@@ -15,7 +15,8 @@ TEST(Help, OfTheProgramListsTheVerbs) {
   const CommandResult result = run_command(directory, {"--help"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
-  for (const char* verb : {"render", "trace", "compare", "inspect", "animate", "structures"}) EXPECT_THAT(result.out, HasSubstr(verb));
+  for (const char* verb : {"render", "merge", "trace", "compare", "inspect", "animate", "structures"})
+    EXPECT_THAT(result.out, HasSubstr(verb));
 }
 
 TEST(Help, OfEachVerbIsComplete) {
@@ -23,7 +24,8 @@ TEST(Help, OfEachVerbIsComplete) {
   const std::map<std::string, std::vector<std::string>> options{
       {"render",
        {"SCENE", "--output", "--structure", "--spp", "--width", "--height", "--max-depth", "--seed", "--threads", "--camera",
-        "--integrator", "--exposure", "--json", "--quiet"}},
+        "--integrator", "--exposure", "--checkpoint", "--checkpoint-interval", "--restart", "--tile", "--samples", "--json", "--quiet"}},
+      {"merge", {"FILMS", "--output", "--exposure", "--partial", "--threads", "--quiet"}},
       {"trace", {"SCENE", "--rays", "--hits", "--structure", "--query", "--threads", "--repeat", "--json", "--quiet"}},
       {"compare",
        {"SCENE", "--structures", "--rays", "--rounds", "--count", "--seed", "--camera", "--threads", "--json", "--csv", "--html", "--time-limit",
