@@ -28,8 +28,8 @@ TEST(Help, OfEachVerbIsComplete) {
       {"merge", {"FILMS", "--output", "--exposure", "--partial", "--threads", "--quiet"}},
       {"trace", {"SCENE", "--rays", "--hits", "--structure", "--query", "--threads", "--repeat", "--json", "--quiet"}},
       {"compare",
-       {"SCENE", "--structures", "--rays", "--rounds", "--count", "--seed", "--camera", "--threads", "--json", "--csv", "--html", "--time-limit",
-        "--memory-limit", "--matched-memory", "--scale", "--sizes", "--max", "--quiet"}},
+       {"SCENE", "--structures", "--rays", "--rounds", "--count", "--seed", "--camera", "--threads", "--json", "--csv", "--html",
+        "--time-limit", "--memory-limit", "--matched-memory", "--scale", "--sizes", "--max", "--quiet"}},
       {"inspect", {"SCENE", "--structure", "--threads", "--json", "--html", "--camera", "--obj", "--depth", "--quiet"}},
       {"reproduce", {"--quick", "--only", "--list", "--json", "--html", "--markdown", "--restart", "--threads", "--quiet"}},
       {"structures", {"--json"}}};

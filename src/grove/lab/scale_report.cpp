@@ -107,8 +107,8 @@ std::string scale_text(const ScaleStudy& study) {
   TextTable fits({{"structure", left}, {"build time", left}, {"memory", left}, {"steps a ray", left}});
   for (const ScaleFit& fit : study.fits) fits.add_row({fit.structure, law_text(fit.build), law_text(fit.memory), law_text(fit.steps)});
   return fmt::format("{}: {} {} rays, {} thread{}\n\n{}\n{}\n{}", study.scene, with_separators(study.ray_count), study.rays,
-                     study.machine.threads, study.machine.threads == 1 ? "" : "s", table.text(),
-                     study.fits.empty() ? "" : fits.text(), failures);
+                     study.machine.threads, study.machine.threads == 1 ? "" : "s", table.text(), study.fits.empty() ? "" : fits.text(),
+                     failures);
 }
 
 }  // namespace grove

@@ -29,15 +29,20 @@ Finding check_refit(const Effort& effort) {
   std::size_t refit_wins = 0;
   std::size_t automatic_best = 0;
   std::vector<std::string> ratios;
-  const unsigned frames = effort.choose(10U, 60U);
-  for (const char* const name : {"builtin:twist", "builtin:shatter"}) {
-    for (const std::size_t rays : {std::size_t{10'000}, std::size_t{200'000}}) {
+  const unsigned frames = effort.choose(8U, 24U);
+  // A hierarchy that is only refitted while its primitives fly apart takes some twenty times as long to trace: few rays are enough.
+  const auto few_rays = effort.choose<std::size_t>(1'000, 5'000);
+  const auto many_rays = effort.choose<std::size_t>(10'000, 100'000);
+  for (const std::string& source : effort.choose<std::vector<std::string>>({"builtin:twist?size=10", "builtin:shatter?size=30"},
+                                                                           {"builtin:twist", "builtin:shatter"})) {
+    const std::string scene = source.substr(8, source.find('?') - 8);
+    for (const std::size_t rays : {few_rays, many_rays}) {
       AnimationSettings settings;
       settings.frames = frames;
       settings.workload.ray_count = rays;
       ProgressReporter progress;
       progress.stop = effort.stop;
-      const Animation animation = animate(moving_scene(name), settings, progress);
+      const Animation animation = animate(moving_scene(source), settings, progress);
       effort.check_stop();
       std::map<UpdatePolicy, PolicySum> sums;
       std::map<UpdatePolicy, double> last_steps;
@@ -45,11 +50,10 @@ Finding check_refit(const Effort& effort) {
         sums[row.policy].update += row.update.seconds;
         sums[row.policy].trace += row.trace_seconds;
         last_steps[row.policy] = row.nodes_per_ray + row.tests_per_ray;
-        if (rays != 200'000) continue;
+        if (rays != many_rays) continue;
         const double steps = last_steps[row.policy];
-        add_point(growth, fmt::format("{}, {}", std::string_view(name).substr(8), name_of(row.policy)), {row.time, steps, steps, steps});
+        add_point(growth, fmt::format("{}, {}", scene, name_of(row.policy)), {row.time, steps, steps, steps});
       }
-      const std::string scene(std::string_view(name).substr(8));
       const double per_frame = 1e3 / frames;
       for (const auto& [policy, sum] : sums) {
         table.rows.push_back({scene, static_cast<double>(rays), std::string(name_of(policy)), per_frame * sum.update, per_frame * sum.trace,
