@@ -17,7 +17,7 @@ TEST(Reproduce, ChecksTheClaimsAskedFor) {
   const CommandResult result = run_command(directory, arguments);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("octree-deep-and-empty (III.A.3"));
-  EXPECT_THAT(result.out, HasSubstr("1 claims: 1 hold"));
+  EXPECT_THAT(result.out, HasSubstr("1 claim: 1 holds"));
   const auto json = nlohmann::json::parse(read_file(directory / "reproduce-quick.json"));
   ASSERT_EQ(json.at("claims").size(), 1U);
   EXPECT_EQ(json.at("claims").at(0).at("verdict"), "holds");

@@ -106,7 +106,7 @@ TEST(ReproduceReport, KeepsWhatFailedApart) {
 TEST(ReproduceReport, IsTextAndADocument) {
   const std::string text = claim_text(small_reproduction().claims.at(0));
   EXPECT_THAT(text, HasSubstr("mixed   one (III.A.1, 60.0 s)\n        Trees grow.\n        → Half of 4 * 2.\n        Why: By 8 counts.\n"));
-  EXPECT_THAT(tally_text(small_reproduction()), HasSubstr("2 claims: 0 hold, 1 are mixed, 0 fail; 1 could not be checked"));
+  EXPECT_THAT(tally_text(small_reproduction()), HasSubstr("2 claims: 0 hold, 1 is mixed, 0 fail; 1 could not be checked"));
   const std::string document = reproduction_markdown(small_reproduction());
   EXPECT_THAT(document, HasSubstr("commit 0123456789ab"));
   EXPECT_THAT(document, HasSubstr("### III.A: Octrees\n\n- **Trees grow.** (mixed) Half of 4 \\* 2. By 8 counts. [figures](#one)"));

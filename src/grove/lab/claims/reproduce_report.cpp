@@ -160,9 +160,13 @@ Reproduction reproduction_from_json(const Json& json, const std::string& file) {
 std::string tally_text(const Reproduction& reproduction) {
   const auto failed =
       static_cast<std::size_t>(std::ranges::count_if(reproduction.claims, [](const CheckedClaim& claim) { return !claim.finding; }));
-  std::string text =
-      fmt::format("{} claims: {} hold, {} are mixed, {} fail", reproduction.claims.size(), count_of(reproduction, Verdict::holds),
-                  count_of(reproduction, Verdict::mixed), count_of(reproduction, Verdict::fails));
+  const auto number = [](std::size_t count, const char* one, const char* others) {
+    return fmt::format("{} {}", count, count == 1 ? one : others);
+  };
+  std::string text = fmt::format("{}: {}, {}, {}", number(reproduction.claims.size(), "claim", "claims"),
+                                 number(count_of(reproduction, Verdict::holds), "holds", "hold"),
+                                 number(count_of(reproduction, Verdict::mixed), "is mixed", "are mixed"),
+                                 number(count_of(reproduction, Verdict::fails), "fails", "fail"));
   if (failed > 0) text += fmt::format("; {} could not be checked", failed);
   return text;
 }
