@@ -98,7 +98,7 @@ TEST_P(RecordedSteps, AreOfNodesThatAreShown) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Specs, RecordedSteps, testing::ValuesIn(walked_specs()),
-                         [](const auto& info) { return as_test_name(info.param); });
+                         [](const auto& test) { return as_test_name(test.param); });
 
 }  // namespace
 }  // namespace grove::test
