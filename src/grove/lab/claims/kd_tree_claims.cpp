@@ -103,6 +103,7 @@ Finding check_updates(const Effort& effort) {
     effort.check_stop();
     const double share = 1.0 / static_cast<double>(stride);
     std::vector<Follow> follows;
+    follows.reserve(specs.size());
     for (const std::string& spec : specs) follows.push_back(follow(spec, settings, stride, effort.choose(3U, 5U)));
     for (std::size_t i = 0; i < specs.size(); ++i) {
       const Spread against_build = spread_of(ratios_by_round(follows[i].update, follows[i].rebuild));

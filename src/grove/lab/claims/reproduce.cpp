@@ -1,5 +1,7 @@
 #include "grove/lab/claims/reproduce.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <new>
 
@@ -18,8 +20,11 @@ void check_ids(const ReproduceSettings& settings) {
   for (const std::string& id : settings.only) {
     if (std::ranges::find(review_claims(), id, &Claim::id) != review_claims().end()) continue;
     std::string known;
-    for (const Claim& claim : review_claims()) known += (known.empty() ? "" : ", ") + std::string(claim.id);
-    throw UsageError("no claim is called '" + id + "'; the claims are " + known);
+    for (const Claim& claim : review_claims()) {
+      if (!known.empty()) known += ", ";
+      known += claim.id;
+    }
+    throw UsageError(fmt::format("no claim is called '{}'; the claims are {}", id, known));
   }
 }
 

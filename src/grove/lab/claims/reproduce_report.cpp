@@ -103,9 +103,10 @@ std::string conclusions_of(const Reproduction& reproduction, const Choice& is_ch
 
 std::string conclusions(const Reproduction& reproduction) {
   std::string text;
-  for (const auto& [section, title] : kSections) {
-    const std::string items = conclusions_of(reproduction, [&](const CheckedClaim& claim) { return claim.source.starts_with(section); });
-    if (!items.empty()) text += fmt::format("### {}: {}\n\n{}\n", section, title, items);
+  for (const auto& section : kSections) {
+    const std::string items =
+        conclusions_of(reproduction, [&](const CheckedClaim& claim) { return claim.source.starts_with(section.first); });
+    if (!items.empty()) text += fmt::format("### {}: {}\n\n{}\n", section.first, section.second, items);
   }
   const std::string others = conclusions_of(reproduction, [](const CheckedClaim& claim) {
     return std::ranges::none_of(kSections, [&](const auto& section) { return claim.source.starts_with(section.first); });
