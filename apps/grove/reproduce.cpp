@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "command_line.h"
 #include "grove/base/error.h"
 #include "grove/base/output_file.h"
 #include "grove/lab/claims/reproduce_report.h"
@@ -64,8 +65,8 @@ int run(ReproduceOptions& options, Interrupts& interrupts) {
   check_writable(options.json);
   if (!options.markdown.empty()) check_writable(options.markdown);
   check_html(options, PageKind::report);
-  Reproduction earlier = read_earlier(options, console);
-  earlier.command = fmt::format("grove reproduce{}", options.settings.quick ? " --quick" : "");
+  const Reproduction earlier = read_earlier(options, console);
+  options.settings.command = command_line();
 
   const ReproduceObserver observer{[&](const Claim& claim, std::size_t number, std::size_t total) {
                                      console.status(fmt::format("{} of {}: {}", number, total, claim.id));

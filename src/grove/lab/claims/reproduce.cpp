@@ -61,7 +61,7 @@ Reproduction reproduce(const ReproduceSettings& settings, const Reproduction& ea
   Reproduction result;
   result.machine = describe_machine();
   result.quick = settings.quick;
-  result.command = earlier.command;
+  result.command = settings.command;
   const bool resumes = can_resume(earlier, settings);
   const auto total =
       static_cast<std::size_t>(std::ranges::count_if(review_claims(), [&](const Claim& claim) { return is_chosen(settings, claim.id); }));

@@ -15,7 +15,9 @@ namespace grove {
 struct ReproduceSettings {
   bool quick = false;
   /// Ids of claims; empty: all.
-  std::vector<std::string> only;
+  std::vector<std::string> only = {};
+  /// What was asked for, for the reader.
+  std::string command = {};
 };
 
 /// A claim with what its experiment found; one without a finding has `error`.
