@@ -52,11 +52,6 @@ std::vector<Segment> segments_of(std::span<const Ray> rays, const Accelerator* a
   return segments;
 }
 
-double half_area(const Box& box) {
-  const glm::dvec3 d = glm::dvec3(box.upper) - glm::dvec3(box.lower);
-  return d.x * (d.y + d.z) + d.y * d.z;
-}
-
 /// How many segments meet each node and each of its children.
 struct Meetings {
   std::vector<std::uint64_t> nodes;
@@ -123,9 +118,9 @@ ChanceStudy study_chances(const Bvh2& tree, std::span<const Ray> rays, const Acc
     const Bvh2Node& node = tree.nodes[i];
     Box whole = node.child_box(0);
     whole.grow(node.child_box(1));
-    const double area = half_area(whole);
+    const double area = static_cast<double>(whole.half_area());
     for (int child = 0; child < 2; ++child) {
-      const double expected = area > 0.0 ? half_area(node.child_box(child)) / area : 0.0;
+      const double expected = area > 0.0 ? static_cast<double>(node.child_box(child).half_area()) / area : 0.0;
       if (!(expected > 0.0)) continue;
       const std::uint64_t met = meetings.children[2 * i + static_cast<std::size_t>(child)];
       study.pairs.push_back({expected, static_cast<double>(met) / static_cast<double>(meetings.nodes[i]), meetings.nodes[i]});

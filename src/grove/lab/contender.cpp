@@ -10,6 +10,7 @@
 
 #include "grove/base/error.h"
 #include "grove/base/timer.h"
+#include "grove/lab/structure_trial.h"
 
 namespace grove {
 namespace {
@@ -22,15 +23,6 @@ constexpr double kOneThreadSeconds = 1.0;
 constexpr std::size_t kRaysPerLook = std::size_t{1} << 15;
 /// Brute force draws no picture of more tests than this, which take some seconds.
 constexpr std::uint64_t kMostHeatMapTests = 2'000'000'000;
-
-/// Round by round; the rounds that both have.
-std::vector<double> ratios(std::span<const double> rates, std::span<const double> first) {
-  std::vector<double> result;
-  for (std::size_t round = 0; round < std::min(rates.size(), first.size()); ++round) {
-    if (first[round] > 0.0) result.push_back(rates[round] / first[round]);
-  }
-  return result;
-}
 
 /// Traces one part of a set, a few rays at a time.
 void count_part(const Accelerator& accelerator, Query query, std::span<const Ray> rays, std::span<Hit> hits,
@@ -154,7 +146,8 @@ std::optional<ComparisonRow> Contender::row(std::size_t workload, const Contende
   if (!row.update && row.is_built()) row.update = UpdateTrial{UpdateMethod::rebuild, row.build_seconds.median};
   if (!row.error.empty()) return row;
   row.mrays_per_s = spread_of(rates_[workload]);
-  row.ratio_to_first = spread_of(ratios(rates_[workload], first.rates_[workload]));
+  // Where the first has wrong hits it has no rates.
+  if (first.rows_[workload].error.empty()) row.ratio_to_first = spread_of(ratios_by_round(rates_[workload], first.rates_[workload]));
   return row;
 }
 

@@ -14,12 +14,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kCandidates = 8;
 
-double half_area(const Box& box) {
-  if (box.is_empty()) return 0.0;
-  const glm::dvec3 d = glm::dvec3(box.upper) - glm::dvec3(box.lower);
-  return d.x * (d.y + d.z) + d.y * d.z;
-}
-
 double centre_of(const Box& box, int axis) {
   return 0.5 * (static_cast<double>(box.lower[axis]) + static_cast<double>(box.upper[axis]));
 }
@@ -77,14 +71,15 @@ AxisPlanes planes_between_objects(std::span<Box> boxes, const Box& node, int axi
   Box box;
   for (std::size_t i = n; i-- > 0;) {
     box.grow(boxes[i]);
-    right_area[i] = half_area(box);
+    right_area[i] = static_cast<double>(box.half_area());
   }
   AxisPlanes result{axis, {}, centre_of(node, axis), centre_of(boxes[n / 2], axis)};
   const double whole = right_area[0];
   Box left;
   for (std::size_t i = 1; i < n && whole > 0.0; ++i) {
     left.grow(boxes[i - 1]);
-    const Plane plane{centre_of(boxes[i - 1], axis), centre_of(boxes[i], axis), 0.0, i, n - i, half_area(left), right_area[i]};
+    const Plane plane{
+        centre_of(boxes[i - 1], axis), centre_of(boxes[i], axis), 0.0, i, n - i, static_cast<double>(left.half_area()), right_area[i]};
     // No plane parts equal centres.
     if (!(plane.from < plane.to)) continue;
     result.planes.push_back(plane);

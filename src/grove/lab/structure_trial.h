@@ -41,7 +41,7 @@ struct Stopped {};
 [[nodiscard]] std::vector<StructureTrial> try_structures(const Scene& scene, std::span<const std::string> specs, std::span<const Ray> rays,
                                                          const TrialSettings& settings = {});
 
-/// Of each round: the figure of `other` over that of `base`.
+/// Of each round that both have: the figure of `other` over that of `base`.
 [[nodiscard]] std::vector<double> ratios_by_round(std::span<const double> other, std::span<const double> base);
 
 }  // namespace grove

@@ -17,9 +17,9 @@ std::string percent_more(double ratio) {
 }
 
 ReportTable trial_table() {
-  return {
-      {"scene", "structure", "build ms", "MiB", "references", "depth", "expected cost", "nodes a ray", "tests a ray", "ns a ray", "speed"},
-      {}};
+  return {{"scene", "structure", "build ms", "MiB", "references", "depth", "expected cost", "nodes a ray", "tests a ray", "ns a ray",
+           "speed against the first"},
+          {}};
 }
 
 void add_trials(ReportTable& table, const std::string& scene, std::span<const StructureTrial> trials) {
@@ -29,6 +29,19 @@ void add_trials(ReportTable& table, const std::string& scene, std::span<const St
                           static_cast<double>(trial.statistics.depth), trial.statistics.expected_cost, trial.nodes, trial.tests,
                           spread_of(trial.nanoseconds).median, spread_text(speed_ratio(trial, trials.front()))});
   }
+}
+
+void SceneContest::add(const std::string& scene, std::span<const StructureTrial> trials) {
+  add_trials(table, scene, trials);
+  speed.resize(trials.size());
+  steps.resize(trials.size());
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    const Spread ratio = speed_ratio(trials[i], trials[base]);
+    speed[i].push_back(ratio.median);
+    steps[i].push_back(trials[i].steps() / trials[base].steps());
+    add_point(speeds, trials[i].structure, spread_point(static_cast<double>(scenes.size()), ratio));
+  }
+  scenes.push_back(scene);
 }
 
 void add_point(std::vector<PlotSeries>& series, const std::string& name, const PlotPoint& point) {

@@ -33,6 +33,19 @@ namespace grove {
 [[nodiscard]] ReportTable trial_table();
 void add_trials(ReportTable& table, const std::string& scene, std::span<const StructureTrial> trials);
 
+/// What structures do on several scenes, against one of them.
+struct SceneContest {
+  std::size_t base = 0;  ///< its number among the structures
+  ReportTable table = trial_table();
+  std::vector<std::string> scenes = {};
+  /// By structure, then by scene; medians for speed.
+  std::vector<std::vector<double>> speed = {};
+  std::vector<std::vector<double>> steps = {};
+  std::vector<PlotSeries> speeds = {};  ///< over the scenes, as categories
+
+  void add(const std::string& scene, std::span<const StructureTrial> trials);
+};
+
 /// Appends a point to the series of that name, which is made where there is none.
 void add_point(std::vector<PlotSeries>& series, const std::string& name, const PlotPoint& point);
 

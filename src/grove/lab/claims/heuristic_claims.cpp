@@ -16,49 +16,39 @@ namespace {
 
 Finding check_order(const Effort& effort) {
   const std::vector<std::string> specs{"bvh:split=spatial-median", "bvh:split=object-median", "bvh", "bvh:split=sweep"};
-  ReportTable table = trial_table();
-  std::vector<PlotSeries> speeds;
-  std::vector<std::string> names;
-  std::array<std::vector<double>, 4> speed;
-  std::array<std::vector<double>, 4> steps;
+  SceneContest contest{2};
   std::array<std::vector<double>, 4> costs;
   std::size_t heuristic_best = 0;
   std::size_t spatial_last = 0;
   for (const TrialScene& scene : varied_scenes(effort.choose<std::size_t>(20'000, 200'000), RayKind::diffuse, effort.ray_count())) {
     const std::vector<StructureTrial> trials = try_structures(scene.scene, specs, scene.rays, effort.trials());
-    add_trials(table, scene.name, trials);
-    std::array<double, 4> median{};
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Spread ratio = speed_ratio(trials[i], trials[2]);
-      median[i] = ratio.median;
-      speed[i].push_back(ratio.median);
-      steps[i].push_back(trials[i].steps() / trials[2].steps());
-      costs[i].push_back(trials[i].statistics.expected_cost / trials[2].statistics.expected_cost);
-      add_point(speeds, trials[i].structure, spread_point(static_cast<double>(names.size()), ratio));
-    }
-    heuristic_best += median[0] < 1.0 && median[1] < 1.0 ? 1 : 0;
-    spatial_last += median[0] < median[1] && median[1] < 1.0 ? 1 : 0;
-    names.push_back(scene.name);
+    contest.add(scene.name, trials);
+    for (std::size_t i = 0; i < 4; ++i) costs.at(i).push_back(trials[i].statistics.expected_cost / trials[2].statistics.expected_cost);
+    const double spatial = contest.speed[0].back();
+    const double object = contest.speed[1].back();
+    heuristic_best += spatial < 1.0 && object < 1.0 ? 1 : 0;
+    spatial_last += spatial < object && object < 1.0 ? 1 : 0;
   }
+  const std::size_t scenes = contest.scenes.size();
   Finding finding;
-  finding.verdict = verdict_by_cases(spatial_last, names.size());
+  finding.verdict = verdict_by_cases(spatial_last, scenes);
   finding.measured = fmt::format(
       "The surface-area heuristic is fastest in {} of {} scenes; against it (binned) the spatial median has {} of the speed, the object "
       "median {} and the exact sweep {} "
       "(geometric means). Spatial median, object median, surface-area heuristic from slow to fast: in {} of {}.",
-      heuristic_best, names.size(), short_number(geometric_mean(speed[0])), short_number(geometric_mean(speed[1])),
-      short_number(geometric_mean(speed[3])), spatial_last, names.size());
+      heuristic_best, scenes, short_number(geometric_mean(contest.speed[0])), short_number(geometric_mean(contest.speed[1])),
+      short_number(geometric_mean(contest.speed[3])), spatial_last, scenes);
   finding.why = fmt::format(
       "Rays make {} times the steps of bvh with spatial medians, {} with object medians; the expected cost is {} and {} times that of bvh. "
       "A spatial median "
       "halves the box, whose children are small wherever objects are; an object median puts half of the objects on each side however far "
       "they "
       "reach.",
-      short_number(geometric_mean(steps[0])), short_number(geometric_mean(steps[1])), short_number(geometric_mean(costs[0])),
-      short_number(geometric_mean(costs[1])));
+      short_number(geometric_mean(contest.steps[0])), short_number(geometric_mean(contest.steps[1])),
+      short_number(geometric_mean(costs[0])), short_number(geometric_mean(costs[1])));
   if (finding.verdict == Verdict::fails && heuristic_best > 0) finding.verdict = Verdict::mixed;
-  finding.sections.push_back({"Speed against the binned surface-area heuristic", "", table,
-                              ReportPlot{PlotKind::bar, {"", false, names}, {"speed against bvh"}, speeds}});
+  finding.sections.push_back({"Speed against the binned surface-area heuristic", "", contest.table,
+                              ReportPlot{PlotKind::bar, {"", false, contest.scenes}, {"speed against bvh"}, contest.speeds}});
   return finding;
 }
 

@@ -18,44 +18,37 @@ namespace {
 
 Finding check_volumes(const Effort& effort) {
   const std::vector<std::string> specs{"bvh", "bvh:bounds=obb", "bvh:bounds=sphere"};
-  ReportTable table = trial_table();
-  std::vector<PlotSeries> speeds;
+  SceneContest contest;
   std::vector<PlotSeries> steps;
-  std::vector<std::string> names;
-  std::array<std::vector<double>, 3> speed;
-  std::array<std::vector<double>, 3> work;
   std::size_t in_order = 0;
   std::size_t boxes_first = 0;
   for (const TrialScene& scene : varied_scenes(effort.choose<std::size_t>(15'000, 100'000), RayKind::diffuse, effort.ray_count())) {
     const std::vector<StructureTrial> trials = try_structures(scene.scene, specs, scene.rays, effort.trials());
-    add_trials(table, scene.name, trials);
-    std::array<double, 3> median{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Spread ratio = speed_ratio(trials[i], trials[0]);
-      median[i] = ratio.median;
-      speed[i].push_back(ratio.median);
-      work[i].push_back(trials[i].steps() / trials[0].steps());
-      add_point(speeds, trials[i].structure, spread_point(static_cast<double>(names.size()), ratio));
-      add_point(steps, trials[i].structure, {static_cast<double>(names.size()), work[i].back(), work[i].back(), work[i].back()});
+    contest.add(scene.name, trials);
+    for (std::size_t i = 0; i < trials.size(); ++i) {
+      const double work = contest.steps[i].back();
+      add_point(steps, trials[i].structure, {static_cast<double>(contest.scenes.size() - 1), work, work, work});
     }
-    in_order += median[0] > median[1] && median[1] > median[2] ? 1 : 0;
-    boxes_first += median[0] > median[1] && median[0] > median[2] ? 1 : 0;
-    names.push_back(scene.name);
+    const double oriented = contest.speed[1].back();
+    const double spheres = contest.speed[2].back();
+    in_order += oriented < 1.0 && spheres < oriented ? 1 : 0;
+    boxes_first += oriented < 1.0 && spheres < 1.0 ? 1 : 0;
   }
+  const std::size_t scenes = contest.scenes.size();
   Finding finding;
-  finding.verdict = verdict_by_cases(boxes_first, names.size());
+  finding.verdict = verdict_by_cases(boxes_first, scenes);
   finding.measured = fmt::format(
       "Boxes are fastest in {} of {} scenes; oriented boxes have {} of their speed at {} of their steps, spheres {} at {} (geometric "
       "means). Boxes, then oriented "
       "boxes, then spheres: in {} of {}.",
-      boxes_first, names.size(), short_number(geometric_mean(speed[1])), short_number(geometric_mean(work[1])),
-      short_number(geometric_mean(speed[2])), short_number(geometric_mean(work[2])), in_order, names.size());
-  finding.sections.push_back({"Speed against axis-aligned boxes", "The same topology for all three volumes.", table,
-                              ReportPlot{PlotKind::bar, {"", false, names}, {"speed against boxes"}, speeds}});
+      boxes_first, scenes, short_number(geometric_mean(contest.speed[1])), short_number(geometric_mean(contest.steps[1])),
+      short_number(geometric_mean(contest.speed[2])), short_number(geometric_mean(contest.steps[2])), in_order, scenes);
+  finding.sections.push_back({"Speed against axis-aligned boxes", "The same topology for all three volumes.", contest.table,
+                              ReportPlot{PlotKind::bar, {"", false, contest.scenes}, {"speed against boxes"}, contest.speeds}});
   finding.sections.push_back({"Nodes and tests against axis-aligned boxes",
                               "",
                               {},
-                              ReportPlot{PlotKind::bar, {"", false, names}, {"nodes + tests against boxes"}, steps}});
+                              ReportPlot{PlotKind::bar, {"", false, contest.scenes}, {"nodes + tests against boxes"}, steps}});
   return finding;
 }
 
