@@ -6,20 +6,10 @@
 #include <vector>
 
 #include "grove/scene/animation/scene_animation.h"
+#include "grove/scene/animation/scene_changes.h"
 #include "grove/scene/scene.h"
 
 namespace grove {
-
-/// What a scene at one time has otherwise than at the time before.
-struct SceneChanges {
-  std::vector<std::uint32_t> instances;  ///< those that stand elsewhere
-  std::vector<std::uint32_t> objects;    ///< those whose vertices moved
-  bool cameras = false;
-  bool lights = false;
-
-  /// Whether what rays can hit has changed.
-  [[nodiscard]] bool has_geometry() const { return !instances.empty() || !objects.empty(); }
-};
 
 /// A scene that can be put to any time of one of its animations. What the animation moves rigidly stands on instances, and what it bends or morphs is an
 /// object of its own, so that `move_to` and the structures that follow (SceneAccelerator::update) touch nothing else. A scene without animations is the
