@@ -55,7 +55,7 @@ struct FramePlan {
   /// Seconds of the scene at which frame `number` begins.
   [[nodiscard]] double time_of(const FrameOptions& options, std::uint32_t number) const;
   /// What part of a turn round the scene is done at a time.
-  [[nodiscard]] double turns_at(const FrameOptions& options, double time) const;
+  [[nodiscard]] double turns_at(const FrameOptions& options, double at) const;
 };
 
 /// Understands the options, together with the camera and pictures that are asked for; clears `camera` where it is "orbit". Throws UsageError.

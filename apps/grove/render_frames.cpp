@@ -29,7 +29,7 @@ AnimatedScene load_moving(const CommonOptions& common, const FrameOptions& optio
   if (const auto& animation = scene.animation()) {
     console.say(fmt::format("animation  {}{:g} s to {:g} s; {} of {} objects change shape, {} of {} instances move",
                             animation->name.empty() ? "" : "'" + animation->name + "', ", animation->begin, animation->end,
-                            animation->objects.size(), scene.scene().objects.size(), animation->instances.size(),
+                            scene.deforming_object_count(), scene.scene().objects.size(), animation->instances.size(),
                             scene.scene().instances.size()));
   } else {
     console.warn("the scene has no animation; it is the same at all times");

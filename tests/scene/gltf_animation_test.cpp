@@ -280,6 +280,18 @@ TEST_F(GltfAnimation, BrokenSkinsAreMended) {
   EXPECT_THAT(vertices(scene), ElementsAre(Vec3(3, 0, 0), Vec3(4, 0, 0), Vec3(3, 1, 0)));
 }
 
+TEST(BuiltinAnimation, ScenesWithATimeMove) {
+  AnimatedScene scene = load_animated_scene("builtin:twist?size=2", "");
+  EXPECT_THAT(scene.move_to(0.0).objects, ElementsAre(0));
+  EXPECT_FALSE(scene.move_to(0.0).has_geometry());
+  EXPECT_THAT(scene.move_to(0.5).objects, ElementsAre(0));
+  const auto vertices_of = [](const Scene& s) { return std::get<std::shared_ptr<TriangleMesh>>(s.objects.at(0).geometry)->vertices(); };
+  EXPECT_TRUE(std::ranges::equal(vertices_of(scene.scene()), vertices_of(load_scene("builtin:twist?size=2&time=0.5"))));
+  EXPECT_FALSE(scene.move_to(1.0).objects.empty());
+  EXPECT_FALSE(scene.move_to(8.0).has_geometry());
+  EXPECT_FALSE(load_animated_scene("builtin:twist?size=2&time=0.5", "").animation());
+}
+
 TEST(SharedAnimation, FoxAndMorphStressTestPlay) {
   const std::filesystem::path folder = std::filesystem::path(GROVE_SOURCE_DIR) / "../shared/scenes/animated";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no ../shared/scenes beside the source tree";

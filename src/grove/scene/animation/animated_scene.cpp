@@ -42,6 +42,17 @@ AnimatedScene::AnimatedScene(Scene scene, SceneAnimation animation) : scene_(std
   }
 }
 
+AnimatedScene::AnimatedScene(std::function<Scene(double)> make, double begin, double end) : scene_(make(begin)), make_(std::move(make)) {
+  animation_.emplace();
+  animation_->begin = begin;
+  animation_->end = end;
+}
+
+std::size_t AnimatedScene::deforming_object_count() const {
+  if (make_) return scene_.objects.size();
+  return animation_ ? animation_->objects.size() : 0;
+}
+
 SceneChanges AnimatedScene::move_to(double time) {
   SceneChanges changes;
   if (!animation_) return changes;
@@ -51,6 +62,7 @@ SceneChanges AnimatedScene::move_to(double time) {
   move_cameras(to_world, changes);
   move_lights(to_world, changes);
   move_vertices(to_world, changes);
+  if (make_) move_made(std::clamp(time, animation_->begin, animation_->end), changes);
   has_moved_ = true;
   return changes;
 }
@@ -122,6 +134,23 @@ void AnimatedScene::move_vertices(const std::vector<Mat4>& to_world, SceneChange
     }
     mesh.move_vertices(positions_);
     changes.objects.push_back(deforming.object);
+  }
+}
+
+void AnimatedScene::move_made(double time, SceneChanges& changes) {
+  Scene made = make_(time);
+  GROVE_CHECK(made.objects.size() == scene_.objects.size());
+  changes.objects.reserve(made.objects.size());
+  for (std::uint32_t i = 0; i < made.objects.size(); ++i) {
+    const auto* const from = std::get_if<std::shared_ptr<TriangleMesh>>(&made.objects[i].geometry);
+    const auto* const to = std::get_if<std::shared_ptr<TriangleMesh>>(&scene_.objects[i].geometry);
+    if (from == nullptr || to == nullptr) continue;
+    if (has_moved_ && std::ranges::equal((*from)->vertices(), (*to)->vertices())) continue;
+    (*to)->move_vertices((*from)->vertices());
+    for (std::size_t p = 0; p < made.objects[i].parts.size(); ++p) {
+      scene_.objects[i].parts[p].normals = std::move(made.objects[i].parts[p].normals);
+    }
+    changes.objects.push_back(i);
   }
 }
 

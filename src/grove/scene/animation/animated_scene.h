@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,11 +24,16 @@ class AnimatedScene {
   /// `animation` must be of this scene.
   AnimatedScene(Scene scene, SceneAnimation animation);
 
+  /// A scene that is made anew for each time from `begin` to `end`: the same objects and instances at all times but for where vertices are, and their normals.
+  AnimatedScene(std::function<Scene(double time)> make, double begin, double end);
+
   /// The scene as it was last put; before that as the file has it at rest.
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] Scene& scene() { return scene_; }
   /// Nothing for a scene that does not move.
   [[nodiscard]] const std::optional<SceneAnimation>& animation() const { return animation_; }
+  /// Objects whose vertices move at some time.
+  [[nodiscard]] std::size_t deforming_object_count() const;
 
   /// Puts the scene to a time, in seconds of the file, and tells what has changed since the last call; at the first call all that can. Before the first keyframe
   /// and after the last things stay as they are there. A camera or light whose node has no direction at that time stays where it was. Vertices are moved
@@ -47,9 +53,11 @@ class AnimatedScene {
   void move_cameras(const std::vector<Mat4>& to_world, SceneChanges& changes);
   void move_lights(const std::vector<Mat4>& to_world, SceneChanges& changes);
   void move_vertices(const std::vector<Mat4>& to_world, SceneChanges& changes);
+  void move_made(double time, SceneChanges& changes);
 
   Scene scene_;
   std::optional<SceneAnimation> animation_;
+  std::function<Scene(double)> make_;
   bool has_moved_ = false;
   std::vector<NodePose> poses_;
   std::vector<std::vector<float>> weights_;  // by object of the animation
