@@ -115,8 +115,10 @@ class RenderJob {
   std::uint64_t render_tile(const Tile& tile, std::uint32_t end, Pause& pause) {
     std::uint64_t rays = 0;
     std::uint64_t taken = 0;
+    const Timer timer;
     std::unique_ptr<SampleBatch> batch = takes_batches() ? idle_batch() : nullptr;
     const std::uint64_t earlier_rays = batch ? batch->rays_traced() : 0;
+    const double earlier_trace = batch ? batch->trace_seconds() : 0.0;
     for (std::uint32_t y = tile.first_y; y < tile.end_y; ++y) {
       for (std::uint32_t x = tile.first_x; x < tile.end_x; ++x) {
         const auto first = static_cast<std::uint32_t>(film_.pixel(x, y).taken());
@@ -137,6 +139,7 @@ class RenderJob {
     if (batch) {
       batch->finish();
       rays += batch->rays_traced() - earlier_rays;
+      note_times(timer.seconds(), batch->trace_seconds() - earlier_trace);
       put_back(std::move(batch));
     }
     rays_traced_ += rays;
@@ -144,8 +147,17 @@ class RenderJob {
   }
 
   [[nodiscard]] std::uint64_t rays_traced() const { return rays_traced_; }
+  /// Sums over threads, of what batches took. Not while tiles are rendered.
+  [[nodiscard]] double trace_seconds() const { return trace_seconds_; }
+  [[nodiscard]] double shade_seconds() const { return shade_seconds_; }
 
  private:
+  void note_times(double all, double trace) {
+    const std::lock_guard lock(batches_);
+    trace_seconds_ += trace;
+    shade_seconds_ += all - trace;
+  }
+
   [[nodiscard]] PathSettings path_settings() const { return {settings_.max_depth, settings_.indirect_clamp}; }
 
   [[nodiscard]] bool takes_batches() const { return settings_.ray_calls == RayCalls::batches && settings_.integrator == Integrator::path; }
@@ -204,6 +216,8 @@ class RenderJob {
   std::atomic<std::uint64_t> rays_traced_{0};
   std::mutex batches_;
   std::vector<std::unique_ptr<SampleBatch>> idle_batches_;
+  double trace_seconds_ = 0.0;
+  double shade_seconds_ = 0.0;
 };
 
 }  // namespace
@@ -244,15 +258,20 @@ RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, con
     result.warnings.emplace_back("the scene has no light; lit by a default sky");
   }
 
+  result.prepare_seconds += timer.seconds();
   RenderJob job(world, camera_rays, settings, result.part.first_sample, result.film);
   const Progression earlier = progression(result.film, result.part, grid);
   const std::uint32_t samples = result.part.samples_per_pixel();
   const std::uint64_t total = result.part.pixel_count(grid) * samples;
   const std::uint64_t earlier_rays = result.rays_traced;
   const double earlier_seconds = result.seconds;
+  const double earlier_trace = result.trace_seconds;
+  const double earlier_shade = result.shade_seconds;
   std::uint64_t done = earlier.taken;
   const auto take_stock = [&] {
     result.rays_traced = earlier_rays + job.rays_traced();
+    result.trace_seconds = earlier_trace + job.trace_seconds();
+    result.shade_seconds = earlier_shade + job.shade_seconds();
     result.dropped_samples = result.film.dropped_samples();
     result.completed_fraction = static_cast<double>(done) / static_cast<double>(total);
     result.interrupted = done < total;

@@ -71,6 +71,11 @@ struct RenderResult {
   std::uint64_t dropped_samples = 0;
   /// Rays and seconds are sums over this render and what it went on from.
   double seconds = 0.0;
+  /// What `seconds` went into, of which this much was spent before the first ray, on tables of materials and lights.
+  double prepare_seconds = 0.0;
+  /// Sums over threads, for rays that are traced in batches; 0 for others: within structures, and on all else that makes samples of hits.
+  double trace_seconds = 0.0;
+  double shade_seconds = 0.0;
   /// Of all samples of the part; below 1 only when interrupted.
   double completed_fraction = 0.0;
   bool interrupted = false;

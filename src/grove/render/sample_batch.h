@@ -26,6 +26,8 @@ class SampleBatch {
 
   /// Over all that were traced.
   [[nodiscard]] std::uint64_t rays_traced() const { return paths_.rays_traced(); }
+  /// Seconds within the structure.
+  [[nodiscard]] double trace_seconds() const { return paths_.trace_seconds(); }
 
  private:
   struct Pixel {

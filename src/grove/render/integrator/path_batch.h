@@ -23,6 +23,8 @@ class PathBatch {
 
   /// Over all calls.
   [[nodiscard]] std::uint64_t rays_traced() const { return tracer_.rays_traced(); }
+  /// Seconds within the structure.
+  [[nodiscard]] double trace_seconds() const { return tracer_.trace_seconds(); }
 
  private:
   struct Light {

@@ -2,11 +2,15 @@
 
 #include <numeric>
 
+#include "grove/base/timer.h"
+
 namespace grove {
 
 void RayBatch::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) {
   rays_traced_ += rays.size();
+  const Timer timer;
   world_->accelerator.intersect(rays, hits);
+  trace_seconds_ += timer.seconds();
 }
 
 void RayBatch::find_surfaces(std::span<Ray> rays, std::span<Hit> hits, std::span<PathState> paths) {
@@ -33,7 +37,9 @@ void RayBatch::find_surfaces(std::span<Ray> rays, std::span<Hit> hits, std::span
 void RayBatch::any_hits(std::span<const Ray> rays, std::span<float> transmittances) {
   rays_traced_ += rays.size();
   occluded_.resize(rays.size());
+  const Timer timer;
   world_->accelerator.occluded(rays, occluded_);
+  trace_seconds_ += timer.seconds();
   for (std::size_t i = 0; i < rays.size(); ++i) transmittances[i] = occluded_[i] != 0 ? 0.0F : 1.0F;
 }
 

@@ -24,6 +24,8 @@ class RayBatch {
   void find_light(std::span<Ray> rays, std::span<float> transmittances);
 
   [[nodiscard]] std::uint64_t rays_traced() const { return rays_traced_; }
+  /// Seconds within the structure.
+  [[nodiscard]] double trace_seconds() const { return trace_seconds_; }
 
  private:
   // Rays that have passed through something and must be traced on, and which of the batch they are.
@@ -38,6 +40,7 @@ class RayBatch {
 
   const PreparedScene* world_;
   std::uint64_t rays_traced_ = 0;
+  double trace_seconds_ = 0.0;
   Pending pending_;
   std::vector<LightPassage> light_;
   std::vector<std::uint8_t> occluded_;
