@@ -22,7 +22,8 @@ std::vector<std::string> specs_of(const StructureFamily& family) {
     std::vector<std::string> values(key.values.begin(), key.values.end());
     if (key.is_number()) values = {std::to_string(key.minimum), std::to_string(key.maximum)};
     for (const std::string& value : values)
-      specs.push_back(canonical_spec(std::string(family.name) + ":" + std::string(key.name) + "=" + value));
+      if (!rounds_otherwise(family.name, key.name, value))
+        specs.push_back(canonical_spec(std::string(family.name) + ":" + std::string(key.name) + "=" + value));
   }
   return specs;
 }

@@ -59,6 +59,8 @@ INSTANTIATE_TEST_SUITE_P(All, Watertight, testing::ValuesIn(representative_specs
                            for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
                            return name;
                          });
+INSTANTIATE_TEST_SUITE_P(CompressedNodes, Watertight, testing::Values("fast:nodes=compressed"),
+                         [](const auto& /*test*/) { return std::string("fast"); });
 
 // t against the same intersection in long double, for triangles from slivers to walls and rays from all around.
 TEST(TriangleDistance, IsRightToTheLastDigits) {
