@@ -25,11 +25,6 @@ namespace grove::test {
   return family == "auto";
 }
 
-/// Whether hits of a value of a key may differ from those of brute force by rounding. It has tests of its own.
-[[nodiscard]] inline bool rounds_otherwise(std::string_view family, std::string_view key, std::string_view value) {
-  return family == "fast" && key == "triangles" && value == "fast";
-}
-
 /// The representative specs of all families.
 [[nodiscard]] inline std::vector<std::string> representatives() {
   std::vector<std::string> specs;

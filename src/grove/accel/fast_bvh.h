@@ -98,7 +98,7 @@ void BasicFastBvh<NodeFormat, BlockFormat>::visit(const Visitor& visitor) const 
     const Node& node = nodes()[top.child.node()];
     const EightBoxes boxes = node.boxes();
     for (int i = Node::kWidth - 1; i >= 0; --i)
-      if (node.has_child(i)) stack.push_back({boxes.box(i), top.depth + 1, node.child[i]});
+      if (node.has_child(i)) stack.push_back({boxes.box(i).intersection(top.box), top.depth + 1, node.child[i]});
   }
 }
 
