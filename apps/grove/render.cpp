@@ -17,6 +17,7 @@
 #include "picture_files.h"
 #include "picture_part_options.h"
 #include "progress_bar.h"
+#include "sampling_options.h"
 #include "session.h"
 #include "verbs.h"
 
@@ -32,6 +33,7 @@ struct RenderOptions : CommonOptions {
   std::string integrator = "path";
   RenderSettings settings;
   DisplaySettings display;
+  SamplingOptions sampling;
   std::optional<std::string> tile;
   std::optional<std::string> samples;
   std::filesystem::path checkpoint;
@@ -42,6 +44,7 @@ struct RenderOptions : CommonOptions {
 // Whatever can be found wrong before the scene is read.
 void check_command(RenderOptions& options) {
   options.settings.integrator = integrator_from_name(options.integrator);
+  apply_sampling(options.sampling, options.settings);
   if (options.tile) parse_tile(*options.tile, options.settings.part);
   if (options.samples) parse_samples(*options.samples, options.settings.samples_per_pixel, options.settings.part);
   check_pictures(options.pictures);
@@ -148,6 +151,7 @@ Verb add_render(CLI::App& program) {
   verb.add_option("--integrator", options->integrator, "What pixels show: path, ao, normal, depth or cost")
       ->type_name("NAME")
       ->capture_default_str();
+  add_sampling(verb, options->sampling);
   in_range(verb.add_option("--exposure", options->display.exposure, "Stops by which a path-traced .png is brightened")
                ->type_name("STOPS")
                ->capture_default_str(),

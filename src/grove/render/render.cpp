@@ -198,7 +198,7 @@ RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, con
   if (result.film.width() != view.width || result.film.height() != view.height) throw UsageError("the earlier film is of another size");
 
   const CameraRays camera_rays(view.camera, view.width, view.height);
-  const PreparedScene world(scene, accelerator);
+  const PreparedScene world(scene, accelerator, settings.lights);
   if (settings.integrator == Integrator::path && world.lights.has_default_sky()) {
     result.warnings.emplace_back("the scene has no light; lit by a default sky");
   }

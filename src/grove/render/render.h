@@ -10,6 +10,7 @@
 
 #include "grove/base/progress.h"
 #include "grove/render/film.h"
+#include "grove/render/light/light_sampling.h"
 #include "grove/render/picture_part.h"
 #include "grove/render/scene_accelerator.h"
 #include "grove/scene/scene.h"
@@ -40,6 +41,7 @@ struct RenderSettings {
   std::uint32_t max_depth = 8;
   std::uint64_t seed = 0;
   Integrator integrator = Integrator::path;
+  LightSampling lights = LightSampling::hierarchy;
   /// A camera's name; empty takes the scene's first or, when it has none, a view of the whole scene.
   std::string camera;
   /// World units; 0 takes a tenth of the diagonal of the scene's bounds.

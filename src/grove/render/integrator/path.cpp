@@ -24,8 +24,9 @@ Vec3 clamped(const Vec3& colour, float limit) {
 // Light that comes straight from a light source and is scattered once, at `point`, towards the viewer.
 Vec3 direct_light(const PreparedScene& world, const SurfacePoint& point, const ShadingPoint& shading, const Sampler& sampler,
                   std::uint32_t vertex, RayTracer& tracer) {
-  const LightSample light = world.lights.sample(point.position, sampler.sample_1d(dimension(vertex, VertexDimension::light_choice)),
-                                                sampler.sample_2d(dimension(vertex, VertexDimension::light_point)));
+  const LightSample light =
+      world.lights.sample(shading.receiver(point), sampler.sample_2d(dimension(vertex, VertexDimension::light_choice)),
+                          sampler.sample_2d(dimension(vertex, VertexDimension::light_point)));
   if (!(light.pdf > 0.0F)) return Vec3(0.0F);
   const Vec3 wi = shading.frame.to_local(light.direction);
   if (!shading.is_consistent(light.direction, wi)) return Vec3(0.0F);
@@ -44,8 +45,8 @@ Film::Sample trace_path(const PreparedScene& world, const PathSettings& settings
   Vec3 throughput(1.0F);
   float eta_squared = 1.0F;  // undoes the compression of radiance in glass, for the roulette
   Ray ray = camera_ray;
-  Vec3 previous(0.0F);  // the last vertex
-  float pdf = 0.0F;     // of the direction taken there; 0 where no light could have been sampled instead
+  LightReceiver previous;  // the last vertex
+  float pdf = 0.0F;        // of the direction taken there; 0 where no light could have been sampled instead
   SurfaceHit surface;
 
   for (std::uint32_t vertex = 0;; ++vertex) {
@@ -86,7 +87,7 @@ Film::Sample trace_path(const PreparedScene& world, const PathSettings& settings
     throughput *= next.weight;
     eta_squared *= next.eta_squared;
     pdf = next.is_delta ? 0.0F : next.pdf;
-    previous = point.position;
+    previous = shading.receiver(point);
     ray = Ray{};
     ray.origin = point.offset_origin(direction);
     ray.direction = direction;
