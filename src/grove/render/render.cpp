@@ -243,18 +243,23 @@ RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, con
   Pause pause(progress.stop, checkpoints.save ? checkpoints.interval_seconds : std::numeric_limits<double>::infinity(), limit);
   std::mutex reporting;
   Film film_before;  // of this round, where it may have to be taken back
-  while (planner.plan_next()) {
-    const std::uint64_t done_before = done;
-    total = done + rounds.samples_left();
+  std::uint64_t done_before = done;
+  bool is_under_way = false;
+  for (;;) {
+    if (!is_under_way) {
+      if (!planner.plan_next()) break;
+      total = done + rounds.samples_left();
+      done_before = done;
+      pause.ignore_time_limit(planner.is_first_round());
+      if (limit.is_on() && !planner.is_first_round()) film_before = result.film;
+      is_under_way = true;
+    }
     if (pause.is_stopped()) break;
     if (pause.is_due()) {
       take_stock();
       checkpoints.save(result);
       pause.restart();
     }
-    const bool is_first = planner.is_first_round();
-    pause.ignore_time_limit(is_first);
-    if (limit.is_on() && !is_first) film_before = result.film;
     parallel_for(result.part.tile_count(grid), 1, [&](std::size_t i) {
       if (pause.is_wanted()) return;
       const Tile tile = grid.tile(result.part.tile_number(i));
@@ -264,13 +269,16 @@ RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, con
       done += taken;
       if (progress.report) progress.report(done - earlier_samples, planner.foreseen(done - earlier_samples, total - earlier_samples));
     });
-    // What was left of the round at a pause is taken up again; what did not fit into the time is taken back.
-    if (pause.is_out_of_time() && done - done_before < rounds.samples()) {
+    // What is left of the round after a pause is taken up again; what did not fit into the time is taken back.
+    if (done - done_before == rounds.samples()) {
+      planner.note_round(rounds.samples());
+      is_under_way = false;
+    } else if (pause.is_out_of_time()) {
       result.film = std::move(film_before);
       done = done_before;
       planner.stop_in_time();
+      break;
     }
-    planner.note_round(done - done_before);
   }
   if (rounds.samples() == 0) total = done;
 

@@ -32,7 +32,7 @@ bool RoundPlanner::plan_next() {
 }
 
 void RoundPlanner::note_round(std::uint64_t samples_taken) {
-  if (samples_taken > 0) seconds_per_sample_ = (limit_->elapsed() - round_start_) / static_cast<double>(samples_taken);
+  seconds_per_sample_ = (limit_->elapsed() - round_start_) / static_cast<double>(samples_taken);
 }
 
 std::uint64_t RoundPlanner::foreseen(std::uint64_t done, std::uint64_t wanted) const {

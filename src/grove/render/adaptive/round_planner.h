@@ -15,7 +15,7 @@ class RoundPlanner {
 
   /// Plans the next round. False when there is none, or no time for one sample of each pixel that is in it.
   [[nodiscard]] bool plan_next();
-  /// After the round, however far it came.
+  /// After a round that was finished.
   void note_round(std::uint64_t samples_taken);
   /// No further rounds.
   void stop_in_time() { is_out_of_time_ = true; }

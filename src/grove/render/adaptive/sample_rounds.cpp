@@ -74,16 +74,14 @@ SampleRounds::TilePlan SampleRounds::plan_tile(const Tile& tile, std::uint32_t e
     if (excess <= 1.0F) goal = taken;
     goal = std::min({goal, most, most - taken > most_each ? taken + most_each : most});
     goals_[std::size_t{y} * film_->width() + x] = goal;
+    const auto left = static_cast<double>(most - taken);
+    if (!noise_.is_on()) plan.samples_left += left;
     if (goal <= taken) return;
     ++plan.pixels;
     plan.samples += goal - taken;
-    const auto left = static_cast<double>(most - taken);
+    if (!noise_.is_on()) return;
     const double wanted = static_cast<double>(excess) * static_cast<double>(excess) * taken - taken;
-    if (!goes_by_noise) {
-      plan.samples_left += noise_.is_on() ? static_cast<double>(goal - taken) : left;
-    } else {
-      plan.samples_left += wanted < left ? wanted : left;
-    }
+    plan.samples_left += goes_by_noise ? (wanted < left ? wanted : left) : static_cast<double>(goal - taken);
   });
   return plan;
 }
