@@ -72,4 +72,9 @@ float LightCluster::importance(const LightReceiver& receiver) const {
   return sent * receiver_cosine(receiver.side, -glm::dot(receiver.normal, offset) * inverse_distance, half_width);
 }
 
+double chance_of_second(const LightCluster& first, const LightCluster& second, const LightReceiver& receiver) {
+  const auto importance = static_cast<double>(second.importance(receiver));
+  return importance / (static_cast<double>(first.importance(receiver)) + importance);
+}
+
 }  // namespace grove

@@ -36,4 +36,7 @@ struct LightCluster {
 };
 static_assert(sizeof(LightCluster) == 48);
 
+/// The chance of the second of two clusters, in proportion to their importances; NaN where neither can contribute.
+[[nodiscard]] double chance_of_second(const LightCluster& first, const LightCluster& second, const LightReceiver& receiver);
+
 }  // namespace grove

@@ -5,16 +5,6 @@
 #include "grove/render/light/build_light_hierarchy.h"
 
 namespace grove {
-namespace {
-
-// The chance of the second of two children; NaN where neither can contribute.
-double chance_of_second(const LightCluster* pair, const LightReceiver& receiver) {
-  const auto first = static_cast<double>(pair[0].importance(receiver));
-  const auto second = static_cast<double>(pair[1].importance(receiver));
-  return second / (first + second);
-}
-
-}  // namespace
 
 LightHierarchy::LightHierarchy(std::span<const LightBounds> lights) {
   BuiltLightHierarchy built = build_light_hierarchy(lights, kMostDepth, kNoTrail);
@@ -28,7 +18,7 @@ LightHierarchy::Choice LightHierarchy::choose(const LightReceiver& receiver, dou
   const LightCluster* node = nodes_.data();
   while (!node->is_leaf()) {
     const LightCluster* const pair = nodes_.data() + node->number();
-    const double second = chance_of_second(pair, receiver);
+    const double second = chance_of_second(pair[0], pair[1], receiver);
     if (std::isnan(second)) return {};
     const double first = 1.0 - second;
     if (u < first) {
@@ -50,7 +40,7 @@ float LightHierarchy::probability(const LightReceiver& receiver, std::uint32_t l
   double chance = 1.0;
   for (const LightCluster* node = nodes_.data(); !node->is_leaf(); trail >>= 1) {
     const LightCluster* const pair = nodes_.data() + node->number();
-    const double second = chance_of_second(pair, receiver);
+    const double second = chance_of_second(pair[0], pair[1], receiver);
     const bool goes_second = (trail & 1) != 0;
     chance *= goes_second ? second : 1.0 - second;
     if (!(chance > 0.0)) return 0.0F;
