@@ -10,32 +10,13 @@ usage: light_table.py GROVE [--kind points|spots] [--counts N,N] [--ways NAME,NA
 """
 
 import argparse
-import array
-import json
 import math
 import pathlib
 import resource
-import struct
 import subprocess
 import tempfile
 
-PIXEL = 12  # words: radiance, albedo, normal, squares, counts
-
-
-def luminances(path):
-    data = path.read_bytes()
-    header_size = struct.unpack_from("<I", data, 12)[0]
-    header = json.loads(data[16:16 + header_size])
-    pixels = header["width"] * header["height"]
-    first = 16 + header_size
-    floats = array.array("f", data[first:first + 4 * PIXEL * pixels])
-    counts = array.array("I", data[first:first + 4 * PIXEL * pixels])
-    values = []
-    for i in range(0, PIXEL * pixels, PIXEL):
-        count = max(1, counts[i + 10])
-        values.append((0.2126 * floats[i] + 0.7152 * floats[i + 1] + 0.0722 * floats[i + 2]) / count)
-    return values
-
+from film_file import luminances
 
 def render(options, lights, way, spp, seed, directory):
     film = directory / "picture.film"
