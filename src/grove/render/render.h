@@ -27,6 +27,12 @@ enum class Integrator : std::uint8_t {
   cost     ///< work of the camera ray: red nodes visited, green primitives tested, blue their sum
 };
 
+/// How many rays the structure is asked about in one call. The picture is the same, bit for bit.
+enum class RayCalls : std::uint8_t {
+  batches,  ///< those of some thousand paths together, for `path`; the other integrators ask singly
+  single    ///< one after another: the reference for batches, and what follows a path through a debugger
+};
+
 /// The names of the integrators, in the order of the enumeration.
 [[nodiscard]] std::span<const std::string_view> integrator_names();
 /// Throws UsageError that lists the names.
@@ -59,6 +65,7 @@ struct RenderSettings {
   double time_limit = 0.0;
   /// What tells the time for that: seconds from any beginning on, called by any thread. Empty takes the machine's clock.
   std::function<double()> clock;
+  RayCalls ray_calls = RayCalls::batches;
   /// The part of the picture to make. An end_sample of 0 stands for samples_per_pixel, which it must not exceed.
   PicturePart part;
 };
