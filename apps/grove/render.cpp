@@ -21,6 +21,8 @@
 #include "picture_part_options.h"
 #include "progress_bar.h"
 #include "render_frames.h"
+#include "sampling_options.h"
+#include "sampling_report.h"
 #include "session.h"
 #include "verbs.h"
 
@@ -36,6 +38,8 @@ struct RenderOptions : CommonOptions {
   std::string integrator = "path";
   RenderSettings settings;
   DisplaySettings display;
+  SamplingOptions sampling;
+  const CLI::Option* samples_per_pixel = nullptr;
   std::optional<std::string> tile;
   std::optional<std::string> samples;
   std::filesystem::path checkpoint;
@@ -53,12 +57,15 @@ void check_frames(const RenderOptions& options) {
   if (options.frames.shutter <= 0.0) return;
   if (options.samples)
     throw UsageError("--samples: does not go with --shutter, which spreads the samples over time; render parts with --tile");
+  if (options.sampling.noise || options.sampling.time_limit)
+    throw UsageError("--shutter: spreads a number of samples over time; give it by --spp, without --noise and --time-limit");
   if (has_film(options.pictures)) throw UsageError("-o: a .film cannot hold a picture with --shutter; write .exr instead");
 }
 
 // Whatever can be found wrong before the scene is read.
 void check_command(RenderOptions& options) {
   options.settings.integrator = integrator_from_name(options.integrator);
+  apply_sampling(options.sampling, options.samples_per_pixel->count() > 0, options.samples.has_value(), options.settings);
   if (options.asks_single_rays) options.settings.ray_calls = RayCalls::single;
   if (options.tile) parse_tile(*options.tile, options.settings.part);
   if (options.samples) parse_samples(*options.samples, options.settings.samples_per_pixel, options.settings.part);
@@ -78,8 +85,8 @@ void check_command(RenderOptions& options) {
   if (!options.json.empty()) check_writable(options.json);
 }
 
-void write_figures(const RenderOptions& options, const RenderResult& result, const StructureStatistics& statistics, const Scene& scene,
-                   const std::string& spec) {
+void write_figures(const RenderOptions& options, const RenderResult& result, const SamplingReport& report,
+                   const StructureStatistics& statistics, const Scene& scene, const std::string& spec) {
   nlohmann::ordered_json json = structure_json(spec, statistics, arena_threads());
   json["scene"] = options.scene;
   json["load_seconds"] = scene.load_seconds;
@@ -93,18 +100,13 @@ void write_figures(const RenderOptions& options, const RenderResult& result, con
   json["rays"] = result.rays_traced;
   json["render_seconds"] = result.seconds;
   json["mrays_per_s"] = result.seconds > 0.0 ? 1e-6 * static_cast<double>(result.rays_traced) / result.seconds : 0.0;
+  report.add_to(json);
   json["completed_fraction"] = result.completed_fraction;
   json["interrupted"] = result.interrupted;
   json["tiles"] = {{"share", result.part.share}, {"of", result.part.share_count}};
   json["samples"] = {{"first", result.part.first_sample}, {"end", result.part.end_sample}};
   json["images"] = options.pictures;
   write_text_file(options.json, json.dump(2) + "\n");
-}
-
-std::string samples_text(const RenderOptions& options, const PicturePart& part) {
-  const std::uint32_t samples = options.settings.samples_per_pixel;
-  if (!part.is_whole(samples)) return fmt::format("{} of {}", part.text(), samples);
-  return fmt::format("{} sample{} each", samples, samples == 1 ? "" : "s");
 }
 
 int run_frames(const RenderOptions& options, Interrupts& interrupts, const Console& console) {
@@ -147,12 +149,12 @@ int run(RenderOptions& options, Interrupts& interrupts) {
     result = render(scene, built.accelerator, options.settings, bar.reporter(interrupts.token()), std::move(checkpoints));
   }
   for (const std::string& warning : result.warnings) console.warn(warning);
-  console.say(fmt::format("picture    {} x {} pixels, {}, {} rays in {}: {} Mrays/s", result.film.width(), result.film.height(),
-                          samples_text(options, result.part), with_separators(result.rays_traced), duration(result.seconds),
-                          short_number(1e-6 * static_cast<double>(result.rays_traced) / result.seconds)));
+  const SamplingReport report(result, options.settings);
+  console.say(fmt::format("picture    {} x {} pixels, {}, {}", result.film.width(), result.film.height(), report.samples(), report.work()));
+  if (const std::string remark = report.remark(); !remark.empty()) console.say("noise      " + remark);
   checkpoint.finish(result, console);
   write_pictures(options.pictures, result, options.display, header, console);
-  if (!options.json.empty()) write_figures(options, result, built.statistics, scene, spec);
+  if (!options.json.empty()) write_figures(options, result, report, built.statistics, scene, spec);
   checkpoint.rethrow_failure();
   if (!result.interrupted) return 0;
   fmt::print(stderr, "grove render: interrupted; wrote what was finished, {:.1f} % of the samples{}\n", 100.0 * result.completed_fraction,
@@ -173,8 +175,9 @@ Verb add_render(CLI::App& program) {
       ->type_name("PICTURE")
       ->allow_extra_args(false);
   add_structure(verb, *options);
-  in_range(verb.add_option("--spp", settings.samples_per_pixel, "Samples per pixel")->type_name("N")->capture_default_str(),
-           std::uint64_t{1}, kMostSamples);
+  options->samples_per_pixel =
+      in_range(verb.add_option("--spp", settings.samples_per_pixel, "Samples per pixel")->type_name("N")->capture_default_str(),
+               std::uint64_t{1}, kMostSamples);
   in_range(verb.add_option("--width", settings.width, "Pixels across (default: as the scene says, else 1280)")->type_name("W"),
            std::uint64_t{1}, kLargestSide);
   in_range(verb.add_option("--height", settings.height, "Pixels down (default: as the scene says, else 720); one alone keeps the aspect")
@@ -196,6 +199,7 @@ Verb add_render(CLI::App& program) {
   verb.add_option("--integrator", options->integrator, "What pixels show: path, ao, normal, depth or cost")
       ->type_name("NAME")
       ->capture_default_str();
+  add_sampling(verb, options->sampling);
   verb.add_flag("--single-rays", options->asks_single_rays,
                 "Ask the structure about one ray after another instead of batches: slower, the same picture");
   in_range(verb.add_option("--exposure", options->display.exposure, "Stops by which a path-traced .png is brightened")
@@ -228,6 +232,7 @@ Verb add_render(CLI::App& program) {
       "  grove render builtin:cornell -o cornell.png\n"
       "  grove render scene.glb -o scene.exr -o scene.png --spp 256 --width 1920 --height 1080\n"
       "  grove render scene.glb -o scene.exr --spp 4096 --checkpoint scene.film\n"
+      "  grove render scene.glb -o scene.png --noise 0.02 --time-limit 600\n"
       "  grove render scene.glb -o part2.film --tile 2/4\n"
       "  grove render scene.glb -o frame.%04d.png --frames 0:120 --fps 30 --spp 16\n"
       "  grove render builtin:sphereflake -o cost.png --integrator cost --structure bvh --spp 4");

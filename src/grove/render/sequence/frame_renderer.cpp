@@ -52,6 +52,9 @@ Frame FrameRenderer::render(RenderSettings settings, const Exposure& exposure, c
   if (times > 1 && (settings.part.first_sample != 0 || settings.part.end_sample != 0)) {
     throw UsageError("a range of samples cannot be rendered with motion blur, which spreads them over time");
   }
+  if (times > 1 && (settings.noise.target > 0.0F || settings.time_limit > 0.0)) {
+    throw UsageError("motion blur needs the same number of samples at each time: leave out the noise target and the time limit");
+  }
   Frame frame;
   std::vector<std::string> warnings;
   for (std::uint32_t k = 0; k < times; ++k) {
