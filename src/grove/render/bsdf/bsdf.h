@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "grove/render/bsdf/diffuse.h"
+#include "grove/render/bsdf/gltf_layers.h"
 #include "grove/render/bsdf/layered.h"
 
 namespace grove {
@@ -11,7 +12,7 @@ namespace grove {
 class Bsdf {
  public:
   using Model = std::variant<DiffuseBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, ThinTransmissionBsdf,
-                             CoatedDiffuseBsdf, CoatedConductorBsdf, MetallicRoughnessBsdf>;
+                             CoatedDiffuseBsdf, CoatedConductorBsdf, MetallicRoughnessBsdf, GltfLayersBsdf>;
 
   Bsdf() = default;
   // Implicit, since a model is a Bsdf.

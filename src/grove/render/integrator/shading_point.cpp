@@ -18,7 +18,7 @@ ShadingPoint::ShadingPoint(const PreparedScene& world, const SurfacePoint& point
   frame = Frame(normal);
   wo = frame.to_local(to_viewer);
   wo.z = std::max(wo.z, 1e-6F);
-  bsdf = world.materials.bsdf(point, is_outside, u);
+  bsdf = world.materials.bsdf(point, {frame, wo, is_outside}, u);
 }
 
 }  // namespace grove

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grove/render/bsdf/bsdf.h"
+#include "grove/render/material/gltf_surface.h"
 #include "grove/render/surface/surface_point.h"
 #include "grove/scene/scene.h"
 
@@ -17,9 +18,9 @@ class MaterialTable {
   /// Integrates a table for each index of refraction that rough glass and coats have.
   explicit MaterialTable(const Scene& scene);
 
-  /// The surface's scattering function for light that leaves on the outer side (of the geometric normal) or the inner. `u` in [0, 1) decides
-  /// between the materials of a mix, and between transmission and the rest of a glTF material.
-  [[nodiscard]] Bsdf bsdf(const SurfacePoint& point, bool is_outside, float u) const;
+  /// The surface's scattering function as seen by a viewer. `u` in [0, 1) decides between the materials of a mix, and between transmission and
+  /// the rest of a glTF material.
+  [[nodiscard]] Bsdf bsdf(const SurfacePoint& point, const SurfaceView& view, float u) const;
 
   /// The shading normal with normal and bump maps, on the outer side.
   [[nodiscard]] Vec3 shading_normal(const SurfacePoint& point) const;
@@ -30,7 +31,6 @@ class MaterialTable {
 
  private:
   [[nodiscard]] const DielectricAlbedo* table(float ior) const;
-  [[nodiscard]] Bsdf metallic_roughness(const Material& material, const SurfacePoint& point, bool is_outside, float u) const;
 
   const Scene* scene_;
   std::map<float, std::unique_ptr<const DielectricAlbedo>> tables_;

@@ -120,6 +120,9 @@ GltfSurface read_surface(GltfDocument& document, Scene& scene, const JsonCursor&
   if (surface.vertices.empty()) primitive["attributes"]["POSITION"].fail("is missing");
   surface.normals = source.vec3s("NORMAL");
   surface.uvs = source.vec2s("TEXCOORD_0");
+  if (std::ranges::any_of(scene.textures, [](const Texture& texture) { return texture.uv_set == 1; })) {
+    surface.second_uvs = source.vec2s("TEXCOORD_1");
+  }
   surface.colours = source.colours("COLOR_0");
   // Without normals the specification has tangents ignored: they would belong to normals that are not there.
   if (!surface.normals.empty()) surface.tangents = source.vec4s("TANGENT");
