@@ -44,8 +44,8 @@ struct FastStructure {
 
 template <typename C>
 void trace_closest(const FastStructure& structure, const TriangleMesh& /*mesh*/, const Ray& ray, Hit& hit, C& counter) {
-  if constexpr (TellsApart<C>) {
-    // Kernels only count; the plain walk can tell of its steps, and finds the same.
+  if constexpr (TellsApart<C> || FiltersHits<C>) {
+    // Kernels only count; the plain walk can tell of its steps and be told which hits count, and finds the same.
     trace_closest(structure.bvh, ray, hit, counter);
   } else {
     trace_single_closest(structure.bvh, ray, hit, counter.nested());
@@ -53,7 +53,11 @@ void trace_closest(const FastStructure& structure, const TriangleMesh& /*mesh*/,
 }
 template <typename C>
 bool trace_any(const FastStructure& structure, const TriangleMesh& /*mesh*/, const Ray& ray, C& counter) {
-  return trace_single_any(structure.bvh, ray, counter.nested());
+  if constexpr (FiltersHits<C>) {
+    return trace_any(structure.bvh, ray, counter);
+  } else {
+    return trace_single_any(structure.bvh, ray, counter.nested());
+  }
 }
 void trace_closest(const FastStructure& structure, const TriangleMesh& /*mesh*/, std::span<const Ray> rays, std::span<Hit> hits,
                    std::span<TraversalCounts> counts) {
