@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/exponential.hpp>
 
 #include "grove/render/material/opacity.h"
 #include "grove/render/surface/perturb_normal.h"
@@ -39,10 +40,21 @@ float ggx_alpha(const Scene& scene, const ScalarParameter& roughness, const Text
   return perceptual * perceptual;
 }
 
+// The coefficient of Beer's law: attenuation_colour is left after attenuation_distance.
+Vec3 absorption_inside(const Material& material) {
+  if (material.kind != MaterialKind::metallic_roughness || material.thin_walled || !(material.transmission.value > 0.0F)) return Vec3(0.0F);
+  // Not quite black, so that a way of no length still lets everything through.
+  const Vec3 colour = glm::clamp(material.attenuation_colour, Vec3(1e-6F), Vec3(1.0F));
+  return -glm::log(colour) / material.attenuation_distance;
+}
+
 }  // namespace
 
 MaterialTable::MaterialTable(const Scene& scene) : scene_(&scene) {
+  absorption_.reserve(scene.materials.size());
   for (const Material& material : scene.materials) {
+    absorption_.push_back(absorption_inside(material));
+    any_absorbs_inside_ = any_absorbs_inside_ || absorption_.back() != Vec3(0.0F);
     const bool passes = grove::can_pass_light(scene, material);
     can_pass_light_.push_back(passes ? 1 : 0);
     any_can_pass_light_ = any_can_pass_light_ || passes;
@@ -59,6 +71,10 @@ MaterialTable::MaterialTable(const Scene& scene) : scene_(&scene) {
 const DielectricAlbedo* MaterialTable::table(float ior) const {
   const auto found = tables_.find(ior);
   return found == tables_.end() ? nullptr : found->second.get();
+}
+
+Vec3 MaterialTable::transmittance_inside(std::uint32_t material, float distance) const {
+  return glm::exp(-absorption_[material] * distance);
 }
 
 Vec3 MaterialTable::shading_normal(const SurfacePoint& point) const {

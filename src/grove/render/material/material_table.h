@@ -25,6 +25,13 @@ class MaterialTable {
   /// The shading normal with normal and bump maps, on the outer side.
   [[nodiscard]] Vec3 shading_normal(const SurfacePoint& point) const;
 
+  /// The part of light that is left after a way of `distance` world units inside of a volume with this boundary, by Beer's law (KHR_materials_volume).
+  [[nodiscard]] Vec3 transmittance_inside(std::uint32_t material, float distance) const;
+
+  /// Whether light that crosses this boundary is inside of a volume that absorbs.
+  [[nodiscard]] bool absorbs_inside(std::uint32_t material) const { return absorption_[material] != Vec3(0.0F); }
+  [[nodiscard]] bool any_absorbs_inside() const { return any_absorbs_inside_; }
+
   /// Whether light may pass surfaces of this material (`opacity` below 1).
   [[nodiscard]] bool can_pass_light(std::uint32_t material) const { return can_pass_light_[material] != 0; }
   [[nodiscard]] bool any_can_pass_light() const { return any_can_pass_light_; }
@@ -34,7 +41,9 @@ class MaterialTable {
 
   const Scene* scene_;
   std::map<float, std::unique_ptr<const DielectricAlbedo>> tables_;
+  std::vector<Vec3> absorption_;  // by material, per world unit
   std::vector<std::uint8_t> can_pass_light_;
+  bool any_absorbs_inside_ = false;
   bool any_can_pass_light_ = false;
 };
 
