@@ -64,8 +64,9 @@ void absorb(const PreparedScene& world, const SurfacePoint& point, bool is_outsi
 // Light that comes straight from a light source and is scattered once, at `point`, towards the viewer. False where there is none.
 bool sample_light(const PreparedScene& world, const SurfacePoint& point, const ShadingPoint& shading, std::uint32_t vertex,
                   const PathState& path, ShadowRay& shadow) {
-  const LightSample light = world.lights.sample(point.position, path.sampler.sample_1d(dimension(vertex, VertexDimension::light_choice)),
-                                                path.sampler.sample_2d(dimension(vertex, VertexDimension::light_point)));
+  const LightSample light =
+      world.lights.sample(shading.receiver(point), path.sampler.sample_2d(dimension(vertex, VertexDimension::light_choice)),
+                          path.sampler.sample_2d(dimension(vertex, VertexDimension::light_point)));
   if (!(light.pdf > 0.0F)) return false;
   const Vec3 wi = shading.frame.to_local(light.direction);
   if (!shading.is_consistent(light.direction, wi)) return false;
@@ -94,7 +95,7 @@ bool scatter(const PreparedScene& world, const ShadingPoint& shading, const Surf
   path.throughput *= next.weight;
   path.eta_squared *= next.eta_squared;
   path.pdf = next.is_delta ? 0.0F : next.pdf;
-  path.previous = point.position;
+  path.previous = shading.receiver(point);
   if (next.wi.z < 0.0F) path.media = media_across(world, point, shading.is_outside, path.media);
   ray = Ray{};
   ray.origin = point.offset_origin(direction);
