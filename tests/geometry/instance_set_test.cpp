@@ -25,6 +25,11 @@ class Square final : public Traceable {
     return hit;
   }
   [[nodiscard]] bool any_hit(const Ray& ray, TraversalCounts* counts) const override { return static_cast<bool>(closest_hit(ray, counts)); }
+  [[nodiscard]] Hit closest_hit(const Ray& ray, const HitFilter& filter) const override {
+    const Hit hit = closest_hit(ray, nullptr);
+    return hit && filter(hit) ? hit : Hit{};
+  }
+  [[nodiscard]] bool any_hit(const Ray& ray, const HitFilter& filter) const override { return static_cast<bool>(closest_hit(ray, filter)); }
 };
 
 Mat4 moved(float x, float scale) {

@@ -106,6 +106,59 @@ void expect_equal_hits(const Accelerator& structure, const Accelerator& oracle, 
   EXPECT_EQ(differences, 0U) << "of " << rays.size() << " rays";
 }
 
+// Refuses about half of what there is, by number: the far sides of spheres and all that lies behind come to light.
+bool refuse_half(void* /*context*/, const Hit& hit) {
+  std::uint32_t mixed = hit.primitive * 0x9e3779b9U ^ (hit.geometry + 1U) * 0x85ebca6bU ^ (hit.instance + 1U) * 0xc2b2ae35U;
+  // Which side of a sphere it is must count as well.
+  mixed ^= hit.u > 0.5F ? 0x40000000U : 0U;
+  return ((mixed ^ mixed >> 15) * 0x2c1b3c6dU >> 30 & 1U) != 0;
+}
+
+void expect_equal_filtered_hits(const Accelerator& structure, const Accelerator& oracle, const std::vector<Ray>& rays) {
+  std::size_t differences = 0;
+  for (const Ray& ray : rays) {
+    const Hit expected = oracle.closest_hit(ray, HitFilter{refuse_half});
+    const Hit found = structure.closest_hit(ray, HitFilter{refuse_half});
+    const bool any = structure.any_hit(ray, HitFilter{refuse_half});
+    if (same_bits(expected, found) && any == static_cast<bool>(expected)) continue;
+    if (++differences <= 3) ADD_FAILURE() << describe(ray) << "\n  expected " << describe(expected) << "\n  found    " << describe(found);
+  }
+  EXPECT_EQ(differences, 0U) << "of " << rays.size() << " filtered rays";
+}
+
+// What brute force finds with a filter is what it finds without the refused triangles.
+TEST(FilteredHits, AreThoseOfAMeshWithoutTheRefused) {
+  const TriangleMesh whole = random_triangles(300, 0.3F, 5);
+  TriangleMesh left = whole;
+  for (std::uint32_t i = 0; i < left.size(); ++i)
+    if (!refuse_half(nullptr, {.t = 1.0F, .primitive = i, .geometry = 0})) left.remove_triangle(i);
+  const auto in_left_half = [](void* /*context*/, const Hit& hit) {
+    return refuse_half(nullptr, {.primitive = hit.primitive, .geometry = 0});
+  };
+  const auto oracle = build(GeometryPointer(std::make_shared<const TriangleMesh>(left)), "brute");
+  const auto filtered = build(GeometryPointer(std::make_shared<const TriangleMesh>(whole)), "brute");
+  int hit_count = 0;
+  for (const Ray& ray : matrix_rays(GeometryPointer(std::make_shared<const TriangleMesh>(whole)), 40, 46)) {
+    const Hit expected = oracle->intersect(ray);
+    EXPECT_TRUE(same_bits(expected, filtered->closest_hit(ray, HitFilter{in_left_half})));
+    EXPECT_EQ(filtered->any_hit(ray, HitFilter{in_left_half}), static_cast<bool>(expected));
+    hit_count += expected ? 1 : 0;
+  }
+  EXPECT_GT(hit_count, 100);
+}
+
+// A sphere is met twice; where the near side is refused the far one may count.
+TEST(FilteredHits, FindTheFarSideOfASphere) {
+  const auto spheres = std::make_shared<const SphereSet>(std::vector<SphereSet::Sphere>{{{0, 0, 0}, 1.0F}});
+  const auto beyond_origin = [](void* /*context*/, const Hit& hit) { return hit.t > 3.0F; };
+  for (const std::string& spec : representatives()) {
+    const auto structure = build(GeometryPointer(spheres), spec);
+    const Ray ray{.origin = {0, 0, 3}, .direction = {0, 0, -1}};
+    EXPECT_EQ(structure->closest_hit(ray, HitFilter{beyond_origin}).t, 4.0F) << spec;
+    EXPECT_TRUE(structure->any_hit(ray, HitFilter{beyond_origin})) << spec;
+  }
+}
+
 class StructureMatrix : public testing::TestWithParam<std::tuple<std::string, std::size_t>> {
  protected:
   [[nodiscard]] static std::string spec() { return std::get<0>(GetParam()); }
@@ -116,6 +169,7 @@ TEST_P(StructureMatrix, HitsEqualBruteForce) {
   const std::unique_ptr<Accelerator> oracle = build(geometry().geometry, "brute");
   const std::unique_ptr<Accelerator> structure = build(geometry().geometry, spec());
   expect_equal_hits(*structure, *oracle, matrix_rays(geometry().geometry, 150, 42));
+  expect_equal_filtered_hits(*structure, *oracle, matrix_rays(geometry().geometry, 8, 47));
 }
 
 TEST_P(StructureMatrix, BatchesAndCountersChangeNothing) {
@@ -176,6 +230,7 @@ TEST_P(CombinedKeys, GiveHitsOfBruteForce) {
     const std::unique_ptr<Accelerator> oracle = build(named.geometry, "brute");
     const std::unique_ptr<Accelerator> structure = build(named.geometry, GetParam());
     expect_equal_hits(*structure, *oracle, matrix_rays(named.geometry, 40, 45));
+    expect_equal_filtered_hits(*structure, *oracle, matrix_rays(named.geometry, 4, 48));
   }
 }
 

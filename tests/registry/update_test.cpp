@@ -218,6 +218,8 @@ class Watched final : public Traceable {
     return accelerator_->closest_hit(ray, counts);
   }
   [[nodiscard]] bool any_hit(const Ray& ray, TraversalCounts* counts) const override { return accelerator_->any_hit(ray, counts); }
+  [[nodiscard]] Hit closest_hit(const Ray& ray, const HitFilter& filter) const override { return accelerator_->closest_hit(ray, filter); }
+  [[nodiscard]] bool any_hit(const Ray& ray, const HitFilter& filter) const override { return accelerator_->any_hit(ray, filter); }
   [[nodiscard]] const StructureStatistics& statistics() const { return accelerator_->statistics(); }
 
   mutable int traced = 0;

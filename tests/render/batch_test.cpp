@@ -87,13 +87,11 @@ TEST(Batches, PassThroughAlphaAlike) {
   expect_same(sheets(30, 0.0F), {"fast", "bvh"});
 }
 
-TEST(Batches, GiveUpInTheSamePlaceAmongTooManySheets) {
-  expect_same(sheets(kMostPassages - 1, 0.0F), {"fast"}, 1, 1);
-  const Scene scene = sheets(kMostPassages, 0.0F);
-  expect_same(scene, {"fast"}, 1, 1);
-  RenderSettings settings = settings_with(RayCalls::batches);
-  settings.samples_per_pixel = 1;
-  EXPECT_EQ(testing::mean_radiance(testing::render_scene(scene, settings)), Vec3(0.0F));
+TEST(Batches, PassAnyNumberOfSheets) {
+  expect_same(sheets(2000, 0.0F), {"fast"}, 1, 1);
+  RenderSettings settings = settings_with(RayCalls::batches, 1);
+  const Vec3 behind_many = testing::mean_radiance(testing::render_scene(sheets(2000, 0.0F), settings));
+  EXPECT_GT(behind_many.y, 0.0F);
 }
 
 // A batch keeps its memory: what an earlier one left must not show.

@@ -111,5 +111,82 @@ TEST(Furnace, TransparencyTakesItsShare) {
   }
 }
 
+// A sphere has two sides, each with a chance of its own.
+TEST(Furnace, BothSidesOfASphereTakeTheirShare) {
+  Material veil = SceneMaker::diffuse(Vec3(0.0F));
+  veil.alpha_mode = AlphaMode::blend;
+  veil.alpha.value = 0.4F;
+  SceneMaker maker;
+  maker.sphere({{0.0F, 0.0F, 0.0F}, 1.0F}, maker.material(veil));
+  maker.scene().environment.radiance = Vec3(1.0F);
+  maker.camera({0.0F, 0.0F, 3.0F}, {0.0F, 0.0F, 0.0F}, 0.1F);
+  EXPECT_NEAR(testing::mean_radiance(testing::render_scene(maker.make(), testing::small_settings(8, 256, 1))).y, 0.36F, 0.01F);
+}
+
+Material coloured_volume(const Vec3& colour, float distance) {
+  Material material;
+  material.roughness.value = 0.0F;
+  material.transmission.value = 1.0F;
+  material.thin_walled = false;
+  material.ior = 1.0F;  // bends nothing, so that ways are straight
+  material.attenuation_colour = colour;
+  material.attenuation_distance = distance;
+  return material;
+}
+
+// Beer's law along ways of known length: through one volume, through one inside of another, and up to a lamp inside.
+TEST(Furnace, VolumesAbsorbByBeersLaw) {
+  const Vec3 outer(0.5F, 0.25F, 1.0F);
+  const Vec3 inner(0.5F, 1.0F, 0.25F);
+  for (const bool is_nested : {false, true}) {
+    for (const bool has_lamp : {false, true}) {
+      SceneMaker maker;
+      maker.sphere({{0.0F, 0.0F, 0.0F}, 1.0F}, maker.material(coloured_volume(outer, 0.5F)));
+      if (is_nested) maker.sphere({{0.0F, 0.0F, 0.0F}, 0.5F}, maker.material(coloured_volume(inner, 1.0F)));
+      if (has_lamp) maker.sphere({{0.0F, 0.0F, 0.0F}, 0.1F}, maker.material(SceneMaker::lamp(Vec3(2.0F))));
+      maker.scene().environment.radiance = Vec3(1.0F);
+      maker.camera({0.0F, 0.0F, 3.0F}, {0.0F, 0.0F, 0.0F}, 0.01F);
+      const Vec3 seen = testing::mean_radiance(testing::render_scene(maker.make(), testing::small_settings(4, 4)));
+      // In units of the attenuation distances.
+      const float outer_way = (has_lamp ? (is_nested ? 0.5F : 0.9F) : (is_nested ? 1.0F : 2.0F)) / 0.5F;
+      const float inner_way = is_nested ? (has_lamp ? 0.4F : 1.0F) : 0.0F;
+      for (int channel = 0; channel < 3; ++channel) {
+        const float expected = (has_lamp ? 2.0F : 1.0F) * std::pow(outer[channel], outer_way) * std::pow(inner[channel], inner_way);
+        EXPECT_NEAR(seen[channel], expected, 0.002F) << "nested " << is_nested << ", lamp " << has_lamp << ", channel " << channel;
+      }
+    }
+  }
+}
+
+// Light from a lamp inside is absorbed on its way to a surface inside as well.
+TEST(Furnace, VolumesAbsorbLightFromLampsInside) {
+  const auto render = [](bool absorbs) {
+    SceneMaker maker;
+    maker.sphere({{0.0F, 0.0F, 0.0F}, 4.0F}, maker.material(coloured_volume(Vec3(0.5F), absorbs ? 2.0F : 1e30F)));
+    maker.sphere({{0.0F, 0.0F, -1.0F}, 0.5F}, maker.material(SceneMaker::diffuse(Vec3(0.5F))));
+    PunctualLight& lamp = maker.scene().lights.emplace_back();
+    lamp.position = {0.0F, 0.6F, 0.3F};
+    lamp.intensity = Vec3(10.0F);
+    maker.camera({0.0F, 0.0F, 6.0F}, {0.0F, 0.0F, -0.5F}, 0.002F);
+    return testing::mean_radiance(testing::render_scene(maker.make(), testing::small_settings(2, 4, 3))).y;
+  };
+  // From the nearest point of the inner sphere, (0, 0, -0.5): 4.5 units to the boundary before the camera, and 1 to the lamp.
+  EXPECT_NEAR(render(true) / render(false), std::pow(0.5F, 5.5F / 2.0F), 0.002F);
+}
+
+// What glTF calls unlit: the same radiance from both sides, in the mesh's own colours.
+TEST(Furnace, UnlitSurfacesShowTheirVertexColours) {
+  Material unlit = SceneMaker::lamp(Vec3(0.5F, 0.25F, 1.0F), true);
+  unlit.emits_vertex_colour = true;
+  for (const float side : {1.0F, -1.0F}) {
+    SceneMaker maker;
+    maker.quad({-5, -5, 0}, {10, 0, 0}, {0, 10, 0}, maker.material(unlit));
+    maker.camera({0.0F, 0.0F, 3.0F * side}, {0.0F, 0.0F, 0.0F});
+    Scene scene = maker.make();
+    scene.objects[0].parts[0].colours.assign(4, Vec4(0.5F, 1.0F, 0.25F, 1.0F));
+    EXPECT_LT(glm::distance(testing::mean_radiance(testing::render_scene(scene, testing::small_settings(4, 2))), Vec3(0.25F)), 1e-5F);
+  }
+}
+
 }  // namespace
 }  // namespace grove

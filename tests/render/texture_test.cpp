@@ -146,7 +146,7 @@ TEST(MaterialTable, MixesInProportion) {
     const MaterialTable table(scene);
     int second = 0;
     for (int i = 0; i < 1000; ++i) {
-      if (table.bsdf(point, true, (static_cast<float>(i) + 0.5F) / 1000.0F).albedo({0, 0, 1}).x > 0.5F) ++second;
+      if (table.bsdf(point, {}, (static_cast<float>(i) + 0.5F) / 1000.0F).albedo({0, 0, 1}).x > 0.5F) ++second;
     }
     return second;
   };

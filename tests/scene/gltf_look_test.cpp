@@ -50,15 +50,78 @@ TEST_F(GltfLook, PrimitivesWithoutMaterialTakeTheDefault) {
   EXPECT_EQ(scene.materials[1].metallic.value, 1.0F);
 }
 
-TEST_F(GltfLook, UnlitAndSpecularGlossinessAreApproximatedWithAWarning) {
-  Material m = load_material({{"extensions", {{"KHR_materials_unlit", Json::object()}}}});
-  EXPECT_EQ(m.kind, MaterialKind::diffuse);
-  EXPECT_FALSE(m.is_emissive());
-  EXPECT_THAT(scene_.warnings, Contains(HasSubstr("KHR_materials_unlit")));
+TEST_F(GltfLook, UnlitSurfacesEmitTheirBaseColour) {
+  const Material m = load_material(
+      {{"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 0.5}}}}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}});
+  EXPECT_EQ(m.emission.value, Vec3(0.1F, 0.2F, 0.3F));
+  EXPECT_EQ(m.base_colour.value, Vec3(0.0F));
+  EXPECT_EQ(m.alpha.value, 0.5F);
+  EXPECT_TRUE(m.emits_vertex_colour && m.two_sided_emission);
+  EXPECT_THAT(scene_.warnings, ElementsAre());
+}
 
+// Each extension with its textures, whose transforms and sets of coordinates are their own.
+TEST_F(GltfLook, LayersOfMaterials) {
+  file_.json["images"] = {{{"bufferView", file_.add_view(small_png())}}};
+  file_.json["textures"] = {{{"source", 0}}};
+  const Json plain = {{"index", 0}};
+  const Json moved = {{"index", 0}, {"texCoord", 3}, {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0}}, {"texCoord", 1}}}}}};
+  const Material m = load_material(
+      {{"extensions",
+        {{"KHR_materials_specular",
+          {{"specularFactor", 0.5}, {"specularTexture", moved}, {"specularColorFactor", {2, 0.5, 0}}, {"specularColorTexture", plain}}},
+         {"KHR_materials_clearcoat",
+          {{"clearcoatFactor", 0.75},
+           {"clearcoatTexture", plain},
+           {"clearcoatRoughnessFactor", 0.25},
+           {"clearcoatRoughnessTexture", plain},
+           {"clearcoatNormalTexture", {{"index", 0}, {"scale", 0.5}}}}},
+         {"KHR_materials_sheen",
+          {{"sheenColorFactor", {0.25, 0.5, 1}},
+           {"sheenColorTexture", plain},
+           {"sheenRoughnessFactor", 0.5},
+           {"sheenRoughnessTexture", plain}}},
+         {"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 0.25}, {"attenuationColor", {1, 0.5, 0}}}}}}});
+  EXPECT_EQ(m.specular.value, 0.5F);
+  EXPECT_EQ(m.specular.channel, 3U);
+  EXPECT_EQ(m.specular_colour.value, Vec3(2.0F, 0.5F, 0.0F));
+  EXPECT_EQ(m.coat.value, 0.75F);
+  EXPECT_EQ(m.coat.channel, 0U);
+  EXPECT_EQ(m.coat_roughness.value, 0.25F);
+  EXPECT_EQ(m.coat_roughness.channel, 1U);
+  EXPECT_EQ(m.coat_normal_scale, 0.5F);
+  EXPECT_EQ(m.sheen_colour.value, Vec3(0.25F, 0.5F, 1.0F));
+  EXPECT_EQ(m.sheen_roughness.value, 0.5F);
+  EXPECT_EQ(m.sheen_roughness.channel, 3U);
+  EXPECT_EQ(m.attenuation_distance, 0.25F);
+  EXPECT_EQ(m.attenuation_colour, Vec3(1.0F, 0.5F, 0.0F));
+  // One read as a colour, one as data, and the one with a transform.
+  ASSERT_EQ(scene_.textures.size(), 3U);
+  EXPECT_EQ(m.specular_colour.texture, m.sheen_colour.texture);
+  EXPECT_TRUE(scene_.textures.at(m.sheen_colour.texture).srgb);
+  EXPECT_EQ(m.coat.texture, m.coat_normal_texture);
+  EXPECT_FALSE(scene_.textures.at(m.coat.texture).srgb);
+  EXPECT_EQ(scene_.textures.at(m.specular.texture).uv_set, 1U);
+  EXPECT_EQ(scene_.textures.at(m.specular.texture).uv_transform[2].x, 0.5F);
+  EXPECT_THAT(scene_.warnings, ElementsAre());
+}
+
+TEST_F(GltfLook, BackSidesShineWhereSurfacesAreDoubleSided) {
+  EXPECT_FALSE(load_material({{"emissiveFactor", {1, 1, 1}}}).two_sided_emission);
   file_ = {};
+  EXPECT_TRUE(load_material({{"emissiveFactor", {1, 1, 1}}, {"doubleSided", true}}).two_sided_emission);
+}
+
+TEST_F(GltfLook, VariantsAreLeftOutWithANote) {
+  file_.json["extensionsUsed"] = {"KHR_materials_variants"};
+  file_.json["extensions"] = {{"KHR_materials_variants", {{"variants", {{{"name", "red"}}, {{"name", "blue"}}}}}}};
+  (void)load_material(Json::object());
+  EXPECT_THAT(scene_.warnings, ElementsAre(HasSubstr("2 variants")));
+}
+
+TEST_F(GltfLook, SpecularGlossinessIsApproximatedWithAWarning) {
   const Json gold = {{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1, 0.8, 0.3}}, {"glossinessFactor", 0.75}};
-  m = load_material({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", gold}}}});
+  const Material m = load_material({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", gold}}}});
   EXPECT_GT(m.metallic.value, 0.9F);
   EXPECT_EQ(m.roughness.value, 0.25F);
   EXPECT_NEAR(m.base_colour.value.y, 0.8F, 0.1F);
@@ -108,10 +171,29 @@ TEST_F(GltfLook, TextureTransformsScaleThenTurnThenMove) {
   EXPECT_LT(glm::distance(v, Vec3(0.25F + 3.0F, 0.5F, 1)), 1e-6F);
 }
 
-TEST_F(GltfLook, OtherTextureCoordinateSetsAreAWarning) {
+TEST_F(GltfLook, TheSecondSetOfTextureCoordinatesIsReadWhereATextureUsesIt) {
   file_.json["images"] = {{{"bufferView", file_.add_view(small_png())}}};
   file_.json["textures"] = {{{"source", 0}}};
-  (void)load_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}}}}});
+  const int mesh = file_.add_triangle();
+  Json& primitive = file_.json["meshes"][static_cast<std::size_t>(mesh)]["primitives"][0];
+  primitive["attributes"]["TEXCOORD_1"] = file_.add(std::vector<Vec2>{{0, 0}, {0.25F, 0}, {0, 0.5F}});
+  primitive["material"] = 0;
+  file_.add_node({{"mesh", mesh}});
+  for (const int set : {0, 1}) {
+    file_.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", set}}}}}}};
+    const Scene scene = load();
+    EXPECT_EQ(scene.objects[0].parts[0].second_uvs.size(), set == 0 ? 0U : 3U);
+    if (set == 1) {
+      EXPECT_EQ(scene.objects[0].parts[0].second_uvs[1], Vec2(0.25F, 0.0F));
+    }
+    EXPECT_THAT(scene.warnings, ElementsAre());
+  }
+}
+
+TEST_F(GltfLook, FurtherTextureCoordinateSetsAreAWarning) {
+  file_.json["images"] = {{{"bufferView", file_.add_view(small_png())}}};
+  file_.json["textures"] = {{{"source", 0}}};
+  (void)load_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 2}}}}}});
   EXPECT_THAT(scene_.warnings, ElementsAre(HasSubstr("materials[0].pbrMetallicRoughness.baseColorTexture")));
 }
 

@@ -203,10 +203,12 @@ TEST_F(Gltf, MorphTargetsTakeTheMeshesOrTheNodesWeights) {
 
 TEST_F(Gltf, ExtensionsThatAreNotKnown) {
   file_.add_node({{"mesh", file_.add_triangle()}});
-  file_.json["extensionsUsed"] = {"KHR_lights_punctual", "EXT_teapot", "KHR_materials_clearcoat"};
-  EXPECT_THAT(load().warnings, ElementsAre(HasSubstr("EXT_teapot"), HasSubstr("KHR_materials_clearcoat")));
+  file_.json["extensionsUsed"] = {"KHR_lights_punctual", "EXT_teapot", "KHR_materials_iridescence"};
+  EXPECT_THAT(load().warnings, ElementsAre(HasSubstr("EXT_teapot"), HasSubstr("KHR_materials_iridescence")));
   file_.json["extensionsRequired"] = {"EXT_teapot"};
   EXPECT_THAT(error(), HasSubstr("extensionsRequired[0]: EXT_teapot is required but not supported"));
+  file_.json["extensionsRequired"] = {"KHR_materials_iridescence"};
+  EXPECT_THAT(error(), HasSubstr("KHR_materials_iridescence is required but not supported"));
 }
 
 TEST_F(Gltf, AFileWithoutScenesShowsItsRoots) {

@@ -43,6 +43,34 @@ Ray to_object(const Ray& ray, const Transform& transform) {
   return result;
 }
 
+// Takes what was found in an instance when it is closer, or as close in an earlier instance.
+bool take_closer(const Hit& found, std::size_t i, Hit& hit) {
+  const auto id = static_cast<std::uint32_t>(i);
+  if (!found || !(found.t < hit.t || (found.t == hit.t && id < hit.instance))) return false;
+  hit = found;
+  hit.instance = id;
+  return true;
+}
+
+// A filter as the object of one instance sees it: hits are told with the instance's number.
+class InstanceFilter {
+ public:
+  InstanceFilter(const HitFilter& outer, std::size_t i) : outer_(outer), instance_(static_cast<std::uint32_t>(i)) {}
+
+  [[nodiscard]] HitFilter filter() { return {accept, this}; }
+
+ private:
+  static bool accept(void* context, const Hit& hit) {
+    const auto& self = *static_cast<const InstanceFilter*>(context);
+    Hit whole = hit;
+    whole.instance = self.instance_;
+    return self.outer_(whole);
+  }
+
+  const HitFilter& outer_;
+  std::uint32_t instance_;
+};
+
 }  // namespace
 
 void InstanceSet::check_size(std::size_t size) {
@@ -92,12 +120,8 @@ bool InstanceSet::intersect(std::size_t i, const PreparedRay& ray, Hit& hit, Tra
   if (bounds_[i].is_empty()) return false;
   const Ray clipped = clip_to_bounds(ray, bounds_[i], hit.t);
   if (!(clipped.t_min <= clipped.t_max)) return false;
-  const Hit found = instances_[i].object->closest_hit(to_object(clipped, instances_[i].object_to_world), counts);
-  const auto id = static_cast<std::uint32_t>(i);
-  if (!found || !(found.t < hit.t || (found.t == hit.t && id < hit.instance))) return false;
-  hit = found;
-  hit.instance = id;
-  return true;
+  const Instance& instance = instances_[i];
+  return take_closer(instance.object->closest_hit(to_object(clipped, instance.object_to_world), counts), i, hit);
 }
 
 bool InstanceSet::occluded(std::size_t i, const PreparedRay& ray, TraversalCounts* counts) const {
@@ -105,6 +129,23 @@ bool InstanceSet::occluded(std::size_t i, const PreparedRay& ray, TraversalCount
   const Ray clipped = clip_to_bounds(ray, bounds_[i], ray.ray.t_max);
   if (!(clipped.t_min <= clipped.t_max)) return false;
   return instances_[i].object->any_hit(to_object(clipped, instances_[i].object_to_world), counts);
+}
+
+bool InstanceSet::intersect(std::size_t i, const PreparedRay& ray, Hit& hit, const HitFilter& filter) const {
+  if (bounds_[i].is_empty()) return false;
+  const Ray clipped = clip_to_bounds(ray, bounds_[i], hit.t);
+  if (!(clipped.t_min <= clipped.t_max)) return false;
+  const Instance& instance = instances_[i];
+  InstanceFilter below(filter, i);
+  return take_closer(instance.object->closest_hit(to_object(clipped, instance.object_to_world), below.filter()), i, hit);
+}
+
+bool InstanceSet::occluded(std::size_t i, const PreparedRay& ray, const HitFilter& filter) const {
+  if (bounds_[i].is_empty()) return false;
+  const Ray clipped = clip_to_bounds(ray, bounds_[i], ray.ray.t_max);
+  if (!(clipped.t_min <= clipped.t_max)) return false;
+  InstanceFilter below(filter, i);
+  return instances_[i].object->any_hit(to_object(clipped, instances_[i].object_to_world), below.filter());
 }
 
 }  // namespace grove

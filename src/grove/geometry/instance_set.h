@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grove/geometry/hit.h"
+#include "grove/geometry/hit_filter.h"
 #include "grove/geometry/traceable.h"
 #include "grove/math/transform.h"
 
@@ -51,11 +52,19 @@ class InstanceSet {
   /// Traces instance i. t is the same in both spaces, because the direction is not normalised.
   template <typename Counter>
   bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, Counter& counter) const {
-    return intersect(i, ray, hit, counter.nested());
+    if constexpr (FiltersHits<Counter>) {
+      return intersect(i, ray, hit, counter.filter());
+    } else {
+      return intersect(i, ray, hit, counter.nested());
+    }
   }
   template <typename Counter>
   bool occluded(std::size_t i, const PreparedRay& ray, Counter& counter) const {
-    return occluded(i, ray, counter.nested());
+    if constexpr (FiltersHits<Counter>) {
+      return occluded(i, ray, counter.filter());
+    } else {
+      return occluded(i, ray, counter.nested());
+    }
   }
 
   void locate(Hit& /*hit*/) const {}
@@ -65,6 +74,8 @@ class InstanceSet {
   [[nodiscard]] static Box measure(const Instance& instance);
   bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, TraversalCounts* counts) const;
   bool occluded(std::size_t i, const PreparedRay& ray, TraversalCounts* counts) const;
+  bool intersect(std::size_t i, const PreparedRay& ray, Hit& hit, const HitFilter& filter) const;
+  [[nodiscard]] bool occluded(std::size_t i, const PreparedRay& ray, const HitFilter& filter) const;
 
   std::vector<Instance> instances_;
   std::vector<Box> bounds_;

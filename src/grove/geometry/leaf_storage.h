@@ -9,6 +9,7 @@
 #include "grove/base/huge_vector.h"
 #include "grove/base/parallel.h"
 #include "grove/geometry/geometry_concept.h"
+#include "grove/geometry/primitive_test.h"
 #include "grove/geometry/triangle_mesh.h"
 #include "grove/math/float4.h"
 
@@ -42,13 +43,13 @@ class IndirectLeaves {
   template <typename C>
   bool intersect(const G& geometry, const std::uint32_t* references, std::uint32_t slot, const typename G::PreparedRay& ray, Hit& hit,
                  C& counter) const {
-    return geometry.intersect(references[slot], ray, hit, counter);
+    return intersect_primitive(geometry, references[slot], ray, hit, counter);
   }
 
   template <typename C>
   bool occluded(const G& geometry, const std::uint32_t* references, std::uint32_t slot, const typename G::PreparedRay& ray,
                 C& counter) const {
-    return geometry.occluded(references[slot], ray, counter);
+    return occluded_primitive(geometry, references[slot], ray, counter);
   }
 };
 
@@ -92,13 +93,17 @@ class PackedTriangleLeaves {
 
   template <typename C>
   bool intersect(const TriangleMesh& /*mesh*/, const std::uint32_t* references, std::uint32_t slot, const WatertightRay& ray, Hit& hit,
-                 C& /*counter*/) const {
-    return intersect_watertight(ray, corners_[slot], references + slot, hit);
+                 C& counter) const {
+    return take_if_accepted(counter, hit, [&](Hit& taken) { return intersect_watertight(ray, corners_[slot], references + slot, taken); });
   }
 
   template <typename C>
-  bool occluded(const TriangleMesh& /*mesh*/, const std::uint32_t* /*references*/, std::uint32_t slot, const WatertightRay& ray,
-                C& /*counter*/) const {
+  bool occluded(const TriangleMesh& mesh, const std::uint32_t* references, std::uint32_t slot, const WatertightRay& ray, C& counter) const {
+    if constexpr (FiltersHits<C>) {
+      Hit hit;
+      hit.t = ray.ray.t_max;
+      return intersect(mesh, references, slot, ray, hit, counter);
+    }
     return occluded_watertight(ray, corners_[slot]);
   }
 

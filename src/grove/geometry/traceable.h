@@ -1,6 +1,7 @@
 #pragma once
 
 #include "grove/geometry/hit.h"
+#include "grove/geometry/hit_filter.h"
 #include "grove/geometry/ray.h"
 #include "grove/geometry/traversal_counts.h"
 #include "grove/math/box.h"
@@ -22,6 +23,10 @@ class Traceable {
 
   /// True when anything is hit with t in [ray.t_min, ray.t_max]. Adds to `*counts` when it is not null.
   [[nodiscard]] virtual bool any_hit(const Ray& ray, TraversalCounts* counts) const = 0;
+
+  /// The closest hit, and whether there is any, among those that `filter` accepts.
+  [[nodiscard]] virtual Hit closest_hit(const Ray& ray, const HitFilter& filter) const = 0;
+  [[nodiscard]] virtual bool any_hit(const Ray& ray, const HitFilter& filter) const = 0;
 };
 
 }  // namespace grove

@@ -48,8 +48,8 @@ struct FastStructure {
 
 template <typename Bvh, typename C>
 void trace_closest(const FastStructure<Bvh>& structure, const TriangleMesh& mesh, const Ray& ray, Hit& hit, C& counter) {
-  if constexpr (TellsApart<C>) {
-    // Kernels only count; the plain walk can tell of its steps, and finds the same.
+  if constexpr (TellsApart<C> || FiltersHits<C>) {
+    // Kernels only count; the plain walk can tell of its steps and be told which hits count, and finds the same.
     trace_closest(structure.with(mesh), ray, hit, counter);
   } else {
     trace_single_closest(structure.with(mesh), structure.test, ray, hit, counter.nested());
@@ -57,7 +57,11 @@ void trace_closest(const FastStructure<Bvh>& structure, const TriangleMesh& mesh
 }
 template <typename Bvh, typename C>
 bool trace_any(const FastStructure<Bvh>& structure, const TriangleMesh& mesh, const Ray& ray, C& counter) {
-  return trace_single_any(structure.with(mesh), structure.test, ray, counter.nested());
+  if constexpr (FiltersHits<C>) {
+    return trace_any(structure.with(mesh), ray, counter);
+  } else {
+    return trace_single_any(structure.with(mesh), structure.test, ray, counter.nested());
+  }
 }
 template <typename Bvh>
 void trace_closest(const FastStructure<Bvh>& structure, const TriangleMesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,

@@ -8,6 +8,7 @@
 
 #include "grove/base/check.h"
 #include "grove/geometry/geometry_concept.h"
+#include "grove/geometry/hit_filter.h"
 #include "grove/registry/accelerator.h"
 
 namespace grove {
@@ -84,6 +85,14 @@ class StructureAccelerator final : public Accelerator {
   [[nodiscard]] bool any_hit(const Ray& ray, TraversalCounts* counts) const override {
     if (counts == nullptr) return any(ray, NoCounter{});
     return any(ray, Counter(*counts));
+  }
+
+  [[nodiscard]] Hit closest_hit(const Ray& ray, const HitFilter& filter) const override {
+    return closest(ray, [&](const Hit& /*hit*/) { return FilteringCounter<G>(filter, *geometry_); });
+  }
+
+  [[nodiscard]] bool any_hit(const Ray& ray, const HitFilter& filter) const override {
+    return any(ray, FilteringCounter<G>(filter, *geometry_));
   }
 
   [[nodiscard]] Hit record_steps(const Ray& ray, TraversalRecord& record) const override {

@@ -56,10 +56,11 @@ void add_object(Hash& hash, const Object& object) {
   hash.add(geometry.index());
   std::visit([&](const auto& set) { add_geometry(hash, *set); }, geometry);
   for (const Part& part : parts) {
-    const auto& [name, material, normals, uvs, tangents, colours, flip_orientation] = part;
+    const auto& [name, material, normals, uvs, second_uvs, tangents, colours, flip_orientation] = part;
     hash.add(material);
     add_array(hash, normals);
     add_array(hash, uvs);
+    add_array(hash, second_uvs);
     add_array(hash, tangents);
     add_array(hash, colours);
     hash.add(flip_orientation);
@@ -80,13 +81,22 @@ void add_parameter(Hash& hash, const ScalarParameter& parameter) {
 }
 
 void add_material(Hash& hash, const Material& material) {
-  const auto& [name, kind, base_colour, metallic, roughness, coat_roughness, ior, transmission_colour, transmission, thin_walled,
-               has_complex_ior, ior_colour, absorption, normal_texture, normal_scale, bump, alpha_mode, alpha, alpha_cutoff, emission,
-               two_sided_emission, mix_material, mix_amount] = material;
-  for (const ColourParameter* colour : {&base_colour, &transmission_colour, &emission}) add_parameter(hash, *colour);
-  for (const ScalarParameter* scalar : {&metallic, &roughness, &coat_roughness, &transmission, &bump, &alpha, &mix_amount}) {
+  const auto& [name, kind, base_colour, metallic, roughness, coat_roughness, ior, specular, specular_colour, coat, coat_normal_texture,
+               coat_normal_scale, sheen_colour, sheen_roughness, transmission_colour, transmission, thin_walled, attenuation_colour,
+               attenuation_distance, has_complex_ior, ior_colour, absorption, normal_texture, normal_scale, bump, alpha_mode, alpha,
+               alpha_cutoff, emission, two_sided_emission, emits_vertex_colour, mix_material, mix_amount] = material;
+  for (const ColourParameter* colour : {&base_colour, &specular_colour, &sheen_colour, &transmission_colour, &emission}) {
+    add_parameter(hash, *colour);
+  }
+  for (const ScalarParameter* scalar :
+       {&metallic, &roughness, &coat_roughness, &specular, &coat, &sheen_roughness, &transmission, &bump, &alpha, &mix_amount}) {
     add_parameter(hash, *scalar);
   }
+  hash.add(coat_normal_texture);
+  hash.add(coat_normal_scale);
+  hash.add(attenuation_colour);
+  hash.add(attenuation_distance);
+  hash.add(emits_vertex_colour);
   hash.add(kind);
   hash.add(ior);
   hash.add(thin_walled);
@@ -102,7 +112,8 @@ void add_material(Hash& hash, const Material& material) {
 }
 
 void add_texture(Hash& hash, const Texture& texture) {
-  const auto& [name, kind, image, srgb, invert, wrap_u, wrap_v, filter, uv_transform, operand, value, amount_texture, amount] = texture;
+  const auto& [name, kind, image, srgb, invert, wrap_u, wrap_v, filter, uv_set, uv_transform, operand, value, amount_texture, amount] =
+      texture;
   hash.add(kind);
   hash.add(image);
   hash.add(srgb);
@@ -110,6 +121,7 @@ void add_texture(Hash& hash, const Texture& texture) {
   hash.add(wrap_u);
   hash.add(wrap_v);
   hash.add(filter);
+  hash.add(uv_set);
   hash.add(uv_transform);
   hash.add_all(std::span<const std::uint32_t>(operand));
   hash.add_all(std::span<const Vec4>(value));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "grove/math/vector.h"
@@ -48,9 +49,24 @@ struct Material {
   ScalarParameter coat_roughness{.value = 0.0F};
   float ior = 1.5F;
 
+  /// glTF: factors on what the dielectric part reflects: on all of it, and on what it reflects at normal incidence (KHR_materials_specular).
+  ScalarParameter specular{.value = 1.0F, .texture = kNoTexture, .channel = 3};
+  ColourParameter specular_colour;
+  /// glTF: the part of the surface under a clear coat of index 1.5 and `coat_roughness`. The coat follows the vertex normals, whatever
+  /// the normal map of the surface below, or a normal map of its own (KHR_materials_clearcoat).
+  ScalarParameter coat{.value = 0.0F};
+  std::uint32_t coat_normal_texture = kNoTexture;
+  float coat_normal_scale = 1.0F;
+  /// glTF: fibres that stand on the surface, as of velvet (KHR_materials_sheen). Perceptual roughness.
+  ColourParameter sheen_colour{.value = Vec3(0.0F)};
+  ScalarParameter sheen_roughness{.value = 0.0F, .texture = kNoTexture, .channel = 3};
+
   ColourParameter transmission_colour{.value = Vec3(0.0F)};
   ScalarParameter transmission{.value = 0.0F};  ///< glTF: the fraction of the dielectric part that is let through
   bool thin_walled = true;                      ///< glTF transmission without KHR_materials_volume: no refraction of the path
+  /// glTF: what is left of white light after so many world units inside a surface that is not thin-walled (KHR_materials_volume).
+  Vec3 attenuation_colour{1.0F};
+  float attenuation_distance = std::numeric_limits<float>::infinity();
 
   bool has_complex_ior = false;  ///< conductor: use ior_colour and absorption rather than base_colour
   Vec3 ior_colour{0.0F};
@@ -67,6 +83,7 @@ struct Material {
   /// Radiance. One-sided emission leaves on the side of the geometric normal.
   ColourParameter emission{.value = Vec3(0.0F)};
   bool two_sided_emission = true;
+  bool emits_vertex_colour = false;  ///< vertex colours multiply the emission, as on unlit surfaces
 
   std::uint32_t mix_material[2] = {0, 0};  ///< indices into Scene::materials, lower than this one's
   ScalarParameter mix_amount{.value = 0.5F};

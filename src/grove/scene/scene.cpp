@@ -83,7 +83,9 @@ class Validator {
       const Material& m = scene_.materials[i];
       for (const std::uint32_t texture :
            {m.base_colour.texture, m.transmission_colour.texture, m.emission.texture, m.metallic.texture, m.roughness.texture,
-            m.coat_roughness.texture, m.transmission.texture, m.bump.texture, m.alpha.texture, m.mix_amount.texture, m.normal_texture}) {
+            m.coat_roughness.texture, m.transmission.texture, m.bump.texture, m.alpha.texture, m.mix_amount.texture, m.normal_texture,
+            m.specular.texture, m.specular_colour.texture, m.coat.texture, m.coat_normal_texture, m.sheen_colour.texture,
+            m.sheen_roughness.texture}) {
         require(is_texture(texture), "material", i, "names a texture that is not there");
       }
       require(m.kind != MaterialKind::mix || (m.mix_material[0] < i && m.mix_material[1] < i), "material", i,
@@ -122,7 +124,8 @@ class Validator {
 
   void check_part(std::size_t object, const Part& part, std::size_t vertex_count) const {
     require(part.material < scene_.materials.size(), "object", object, "names a material that is not there");
-    for (const std::size_t count : {part.normals.size(), part.uvs.size(), part.tangents.size(), part.colours.size()}) {
+    for (const std::size_t count :
+         {part.normals.size(), part.uvs.size(), part.second_uvs.size(), part.tangents.size(), part.colours.size()}) {
       require(count == 0 || count == vertex_count, "object", object, "has vertex attributes for some vertices only");
     }
   }

@@ -25,8 +25,9 @@ struct Part {
   /// Per vertex of the part (local numbering: mesh vertex minus first_vertex), each either empty or complete.
   std::vector<Vec3> normals;
   std::vector<Vec2> uvs;
-  std::vector<Vec4> tangents;  ///< w is the handedness of the bitangent, as in glTF
-  std::vector<Vec4> colours;   ///< linear, multiplies the base colour and alpha
+  std::vector<Vec2> second_uvs;  ///< for textures with uv_set 1; empty where no texture asks for them
+  std::vector<Vec4> tangents;    ///< w is the handedness of the bitangent, as in glTF
+  std::vector<Vec4> colours;     ///< linear, multiplies the base colour and alpha
   /// The shading normal's side where a surface has no vertex normals follows the winding; true turns it over (pbrt ReverseOrientation).
   bool flip_orientation = false;
 };

@@ -32,6 +32,7 @@ struct Texture {
   TextureWrap wrap_u = TextureWrap::repeat;
   TextureWrap wrap_v = TextureWrap::repeat;
   TextureFilter filter = TextureFilter::linear;
+  std::uint32_t uv_set = 0;  ///< 0: Part::uvs, 1: Part::second_uvs
   /// Applied to (u, v, 1).
   Mat3 uv_transform{1.0F};
   std::uint32_t operand[2] = {kNoTexture, kNoTexture};

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "grove/accel/brute.h"
-#include "grove/geometry/geometry_concept.h"
+#include "grove/geometry/primitive_test.h"
 #include "grove/traverse/traversal_record.h"
 
 namespace grove {
@@ -14,7 +14,7 @@ void trace_closest(const Brute& /*structure*/, const G& geometry, const Ray& ray
   for (std::size_t i = 0; i < geometry.size(); ++i) {
     if (geometry.bounds(i).is_empty()) continue;
     count_test(counter, static_cast<std::uint32_t>(i));
-    geometry.intersect(i, prepared, hit, counter);
+    intersect_primitive(geometry, i, prepared, hit, counter);
   }
 }
 
@@ -26,7 +26,7 @@ bool trace_any(const Brute& /*structure*/, const G& geometry, const Ray& ray, C&
   for (std::size_t i = 0; i < geometry.size(); ++i) {
     if (geometry.bounds(i).is_empty()) continue;
     count_test(counter, static_cast<std::uint32_t>(i));
-    if (geometry.occluded(i, prepared, counter)) return true;
+    if (occluded_primitive(geometry, i, prepared, counter)) return true;
   }
   return false;
 }

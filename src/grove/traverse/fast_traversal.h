@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "grove/accel/fast_bvh.h"
+#include "grove/geometry/hit_filter.h"
 #include "grove/geometry/watertight_triangle.h"
 #include "grove/traverse/wide_traversal.h"
 
@@ -65,7 +66,9 @@ void trace_closest(const FastScene<Bvh>& scene, const Ray& ray, Hit& hit, C& cou
     for (std::uint32_t place = 0; place < count; ++place) count_test(counter, block.primitive[place]);
     for (unsigned left = inside_edges(block, prepared) & ((1U << count) - 1); left != 0; left &= left - 1) {
       const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
-      intersect_watertight(prepared, triangle_in(block, place).corners, &block.primitive[place], hit);
+      take_if_accepted(counter, hit, [&](Hit& taken) {
+        return intersect_watertight(prepared, triangle_in(block, place).corners, &block.primitive[place], taken);
+      });
     }
     return false;
   };
@@ -82,7 +85,13 @@ bool trace_any(const FastScene<Bvh>& scene, const Ray& ray, C& counter) {
     for (std::uint32_t place = 0; place < count; ++place) count_test(counter, block.primitive[place]);
     for (unsigned left = inside_edges(block, prepared) & ((1U << count) - 1); left != 0 && !found; left &= left - 1) {
       const auto place = static_cast<std::uint32_t>(std::countr_zero(left));
-      found = occluded_watertight(prepared, triangle_in(block, place).corners);
+      if constexpr (FiltersHits<C>) {
+        Hit hit;
+        hit.t = ray.t_max;
+        found = intersect_watertight(prepared, triangle_in(block, place).corners, &block.primitive[place], hit) && counter.accepts(hit);
+      } else {
+        found = occluded_watertight(prepared, triangle_in(block, place).corners);
+      }
     }
     return found;
   };

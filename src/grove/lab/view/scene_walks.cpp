@@ -43,6 +43,10 @@ class SceneWalks::TellingObject final : public Traceable {
 
   [[nodiscard]] bool any_hit(const Ray& ray, TraversalCounts* counts) const override { return object_->any_hit(ray, counts); }
 
+  // Views show rays that take every hit.
+  [[nodiscard]] Hit closest_hit(const Ray& ray, const HitFilter& filter) const override { return object_->closest_hit(ray, filter); }
+  [[nodiscard]] bool any_hit(const Ray& ray, const HitFilter& filter) const override { return object_->any_hit(ray, filter); }
+
  private:
   std::shared_ptr<const Accelerator> object_;
   std::uint32_t instance_;

@@ -80,15 +80,15 @@ GgxAlbedo make_ggx_albedo() {
   }
   for (std::size_t a = 0; a < kNodes; ++a) {
     const float alpha = AlbedoTable::node_alpha(a);
-    // With compensation the albedo is (F0 A + B) (1 + F0 k), k = (1 - A - B) / (A + B).
+    // With compensation the albedo is (F0 A + F90 B) (1 + F0 k), k = (1 - A - B) / (A + B).
     const auto k = [&](float cosine) {
       const float single = result.scale(cosine, alpha) + result.bias(cosine, alpha);
       return (1.0F - single) / single;
     };
-    result.mean_constant.at(a) = cosine_weighted_mean([&](float cosine) { return result.bias(cosine, alpha); });
-    result.mean_linear.at(a) =
-        cosine_weighted_mean([&](float cosine) { return result.scale(cosine, alpha) + result.bias(cosine, alpha) * k(cosine); });
-    result.mean_quadratic.at(a) = cosine_weighted_mean([&](float cosine) { return result.scale(cosine, alpha) * k(cosine); });
+    result.mean_scale.at(a) = cosine_weighted_mean([&](float cosine) { return result.scale(cosine, alpha); });
+    result.mean_bias.at(a) = cosine_weighted_mean([&](float cosine) { return result.bias(cosine, alpha); });
+    result.mean_scale_gain.at(a) = cosine_weighted_mean([&](float cosine) { return result.scale(cosine, alpha) * k(cosine); });
+    result.mean_bias_gain.at(a) = cosine_weighted_mean([&](float cosine) { return result.bias(cosine, alpha) * k(cosine); });
   }
   return result;
 }

@@ -38,10 +38,12 @@ class AverageTable {
 struct GgxAlbedo {
   AlbedoTable scale;
   AlbedoTable bias;
-  /// Cosine-weighted means of the reflectance after compensation, as a polynomial in F0: constant + linear F0 + quadratic F0^2.
-  AverageTable mean_constant;
-  AverageTable mean_linear;
-  AverageTable mean_quadratic;
+  /// Cosine-weighted means from which that of the reflectance after compensation follows, for Schlick reflectance F0 + (F90 - F0) w:
+  /// F90 mean_bias + F0 (mean_scale + F90 mean_bias_gain) + F0^2 mean_scale_gain, where _gain is with the factor (1 - E) / E.
+  AverageTable mean_scale;
+  AverageTable mean_bias;
+  AverageTable mean_scale_gain;
+  AverageTable mean_bias_gain;
 };
 
 /// Made on first use; may be called by many threads at once.

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "grove/render/bsdf/diffuse.h"
+#include "grove/render/bsdf/gltf_layers.h"
 #include "grove/render/bsdf/layered.h"
 
 namespace grove {
@@ -12,7 +13,7 @@ namespace grove {
 class Bsdf {
  public:
   using Model = std::variant<DiffuseBsdf, DiffuseTransmissionBsdf, ConductorBsdf, DielectricBsdf, ThinDielectricBsdf, ThinTransmissionBsdf,
-                             CoatedDiffuseBsdf, CoatedConductorBsdf, MetallicRoughnessBsdf>;
+                             CoatedDiffuseBsdf, CoatedConductorBsdf, MetallicRoughnessBsdf, GltfLayersBsdf>;
 
   Bsdf() = default;
   // Implicit, since a model is a Bsdf.

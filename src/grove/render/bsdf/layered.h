@@ -2,6 +2,7 @@
 
 #include "grove/render/bsdf/conductor.h"
 #include "grove/render/bsdf/dielectric.h"
+#include "grove/render/bsdf/glossy_layer.h"
 
 // Surfaces of two layers. The layers are not simulated: what the upper one lets through lights the lower one, and what goes to and fro
 // between them is summed in closed form, so that a lossless lower layer makes a lossless whole.
@@ -60,14 +61,15 @@ struct CoatedConductorBsdf {
   [[nodiscard]] float coat_chance(const Vec3& wo) const;
 };
 
-/// The core of glTF 2.0 (appendix B): a dielectric with a diffuse base, blended with a metal. The mirror lobe has reflectance at normal
-/// incidence mix(dielectric, base colour, metallic); the diffuse part gets what the dielectric's mirror lobe leaves it, by directional
+/// The core of glTF 2.0 (appendix B) with KHR_materials_ior and _specular: a dielectric with a diffuse base, blended with a metal. The mirror
+/// lobe goes from mix(dielectric_f0, base colour, metallic) to mix(dielectric_f90, 1, metallic); the diffuse part gets what the dielectric's mirror lobe leaves it, by directional
 /// albedo on the way in and out (Kelemen and Szirmay-Kalos 2001, "A Microfacet Based Coupled Specular-Matte BRDF Model").
 struct MetallicRoughnessBsdf {
   Vec3 base_colour{1.0F};
   float metallic = 0.0F;
   float alpha = 1.0F;
-  float dielectric_f0 = 0.04F;
+  Vec3 dielectric_f0{0.04F};
+  float dielectric_f90 = 1.0F;
 
   [[nodiscard]] BsdfValue evaluate(const Vec3& wo, const Vec3& wi) const;
   [[nodiscard]] BsdfSample sample(const Vec3& wo, float u_lobe, const Vec2& u) const;
@@ -75,7 +77,8 @@ struct MetallicRoughnessBsdf {
   [[nodiscard]] bool is_delta() const { return alpha < kSmoothAlpha && metallic >= 1.0F; }
 
  private:
-  [[nodiscard]] Vec3 f0() const;
+  [[nodiscard]] GlossyLayer mirror() const;
+  /// Of the most reflected colour, so that the light below keeps its hue.
   [[nodiscard]] float dielectric_albedo(float cosine) const;
   [[nodiscard]] float mirror_chance(const Vec3& wo) const;
   [[nodiscard]] Vec3 diffuse(float cosine_o, float cosine_i) const;

@@ -15,7 +15,7 @@ void PathBatch::trace(std::span<Ray> camera_rays, std::span<const Sampler> sampl
   hits_.resize(samplers.size());
   std::span<Ray> rays = camera_rays;
   for (std::uint32_t vertex = 0; !rays.empty(); ++vertex) {
-    tracer_.find_surfaces(rays, std::span(hits_).first(rays.size()), paths_);
+    tracer_.find_surfaces(rays, std::span(hits_).first(rays.size()), paths_, vertex);
     const std::size_t left = shade(vertex, rays, samples);
     transmittances_.resize(shadow_rays_.size());
     if (!shadow_rays_.empty()) tracer_.find_light(shadow_rays_, transmittances_);

@@ -34,6 +34,33 @@ Ray ray_to_light(const SurfacePoint& point, const LightSample& light) {
   return ray;
 }
 
+// The media behind a surface, for a path that crosses it.
+MediumStack media_across(const PreparedScene& world, const SurfacePoint& point, bool is_outside, MediumStack media) {
+  if (!world.materials.absorbs_inside(point.material)) return media;
+  if (is_outside) {
+    media.enter(point.material);
+  } else {
+    media.leave(point.material);
+  }
+  return media;
+}
+
+// The part of light that a way through the innermost medium leaves.
+Vec3 transmittance_of(const PreparedScene& world, const MediumStack& media, float distance) {
+  const std::uint32_t medium = media.innermost();
+  return medium == kInvalidId ? Vec3(1.0F) : world.materials.transmittance_inside(medium, distance);
+}
+
+// Takes from a path what the medium absorbs on its way to a surface. A path that meets a volume's boundary from inside was in there, even
+// where it started there.
+void absorb(const PreparedScene& world, const SurfacePoint& point, bool is_outside, float distance, PathState& path) {
+  if (!world.materials.any_absorbs_inside()) return;
+  if (!is_outside && path.media.innermost() == kInvalidId && world.materials.absorbs_inside(point.material)) {
+    path.media.enter(point.material);
+  }
+  path.throughput *= transmittance_of(world, path.media, distance);
+}
+
 // Light that comes straight from a light source and is scattered once, at `point`, towards the viewer. False where there is none.
 bool sample_light(const PreparedScene& world, const SurfacePoint& point, const ShadingPoint& shading, std::uint32_t vertex,
                   const PathState& path, ShadowRay& shadow) {
@@ -49,11 +76,16 @@ bool sample_light(const PreparedScene& world, const SurfacePoint& point, const S
   if (is_black(arriving)) return false;
   shadow.radiance = path.throughput * arriving;
   shadow.ray = ray_to_light(point, light);
+  if (world.materials.any_absorbs_inside() && !light.is_infinite) {
+    const MediumStack media = wi.z > 0.0F ? path.media : media_across(world, point, shading.is_outside, path.media);
+    shadow.radiance *= transmittance_of(world, media, glm::length(shadow.ray.direction));
+  }
   return true;
 }
 
 // Chooses the direction in which the path leaves. False where it ends.
-bool scatter(const ShadingPoint& shading, const SurfacePoint& point, std::uint32_t vertex, Ray& ray, PathState& path) {
+bool scatter(const PreparedScene& world, const ShadingPoint& shading, const SurfacePoint& point, std::uint32_t vertex, Ray& ray,
+             PathState& path) {
   const Sampler& sampler = path.sampler;
   const BsdfSample next = shading.bsdf.sample(shading.wo, sampler.sample_1d(dimension(vertex, VertexDimension::lobe)),
                                               sampler.sample_2d(dimension(vertex, VertexDimension::direction)));
@@ -64,6 +96,7 @@ bool scatter(const ShadingPoint& shading, const SurfacePoint& point, std::uint32
   path.eta_squared *= next.eta_squared;
   path.pdf = next.is_delta ? 0.0F : next.pdf;
   path.previous = shading.receiver(point);
+  if (next.wi.z < 0.0F) path.media = media_across(world, point, shading.is_outside, path.media);
   ray = Ray{};
   ray.origin = point.offset_origin(direction);
   ray.direction = direction;
@@ -88,6 +121,7 @@ void add_sky(const PreparedScene& world, const PathSettings& settings, std::uint
 VertexStep shade_vertex(const PreparedScene& world, const PathSettings& settings, std::uint32_t vertex, const Hit& hit,
                         const SurfacePoint& point, Ray& ray, PathState& path, Film::Sample& sample, ShadowRay& shadow) {
   const Vec3 to_viewer = -ray.direction;
+  absorb(world, point, glm::dot(to_viewer, point.geometric_normal) >= 0.0F, hit.t, path);
   const Vec3 emitted = world.lights.emitted(point, to_viewer);
   if (!is_black(emitted)) {
     const float weight = path.pdf > 0.0F ? power_heuristic(path.pdf, world.lights.pdf_of_hit(path.previous, hit, point)) : 1.0F;
@@ -103,7 +137,7 @@ VertexStep shade_vertex(const PreparedScene& world, const PathSettings& settings
   }
   VertexStep step;
   step.has_shadow_ray = !shading.bsdf.is_delta() && sample_light(world, point, shading, vertex, path, shadow);
-  step.goes_on = scatter(shading, point, vertex, ray, path);
+  step.goes_on = scatter(world, shading, point, vertex, ray, path);
   return step;
 }
 

@@ -1,7 +1,5 @@
 #include "grove/render/integrator/ray_batch.h"
 
-#include <numeric>
-
 #include "grove/base/timer.h"
 
 namespace grove {
@@ -13,25 +11,16 @@ void RayBatch::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) {
   trace_seconds_ += timer.seconds();
 }
 
-void RayBatch::find_surfaces(std::span<Ray> rays, std::span<Hit> hits, std::span<PathState> paths) {
+void RayBatch::find_surfaces(std::span<const Ray> rays, std::span<Hit> hits, std::span<const PathState> paths, std::uint32_t vertex) {
   closest_hits(rays, hits);
   if (!world_->materials.any_can_pass_light()) return;
-  const auto passes = [&](std::uint32_t i) {
-    return hits[i] && !stops_ray(*world_, hits[i], paths[i].sampler, paths[i].chances_taken, rays[i]);
-  };
-  std::vector<std::uint32_t>& ids = pending_.ids;
-  ids.clear();
-  for (std::uint32_t i = 0; i < rays.size(); ++i)
-    if (passes(i)) ids.push_back(i);
-  for (int passage = 1; passage < kMostPassages && !ids.empty(); ++passage) {
-    pending_.rays.clear();
-    for (const std::uint32_t i : ids) pending_.rays.push_back(rays[i]);
-    pending_.hits.resize(ids.size());
-    closest_hits(pending_.rays, pending_.hits);
-    for (std::size_t k = 0; k < ids.size(); ++k) hits[ids[k]] = pending_.hits[k];
-    std::erase_if(ids, [&](std::uint32_t i) { return !passes(i); });
+  const Timer timer;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!hits[i]) continue;
+    ChanceFilter chance(*world_, paths[i].sampler, vertex, rays[i]);
+    if (!chance.stops(hits[i])) hits[i] = world_->accelerator.closest_hit(from_hit_on(rays[i], hits[i]), chance.filter());
   }
-  for (const std::uint32_t i : ids) hits[i] = Hit{};
+  trace_seconds_ += timer.seconds();
 }
 
 void RayBatch::any_hits(std::span<const Ray> rays, std::span<float> transmittances) {
@@ -43,33 +32,16 @@ void RayBatch::any_hits(std::span<const Ray> rays, std::span<float> transmittanc
   for (std::size_t i = 0; i < rays.size(); ++i) transmittances[i] = occluded_[i] != 0 ? 0.0F : 1.0F;
 }
 
-void RayBatch::find_light(std::span<Ray> rays, std::span<float> transmittances) {
+void RayBatch::find_light(std::span<const Ray> rays, std::span<float> transmittances) {
   if (!world_->materials.any_can_pass_light()) {
     any_hits(rays, transmittances);
     return;
   }
-  light_.clear();
-  for (const Ray& ray : rays) light_.emplace_back(ray);
-  std::vector<std::uint32_t>& ids = pending_.ids;
-  ids.resize(rays.size());
-  std::iota(ids.begin(), ids.end(), 0U);
-  for (int passage = 0; passage < kMostPassages && !ids.empty(); ++passage) {
-    pending_.hits.resize(ids.size());
-    closest_hits(rays.first(ids.size()), pending_.hits);
-    // Those that go on take the first places.
-    std::size_t left = 0;
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-      const std::uint32_t i = ids[k];
-      if (light_[i].pass(*world_, pending_.hits[k], rays[k])) {
-        rays[left] = rays[k];
-        ids[left++] = i;
-      } else {
-        transmittances[i] = light_[i].transmittance();
-      }
-    }
-    ids.resize(left);
-  }
-  for (const std::uint32_t i : ids) transmittances[i] = 0.0F;
+  nearest_.resize(rays.size());
+  closest_hits(rays, nearest_);
+  const Timer timer;
+  for (std::size_t i = 0; i < rays.size(); ++i) transmittances[i] = transmittance_behind(*world_, rays[i], nearest_[i], light_);
+  trace_seconds_ += timer.seconds();
 }
 
 }  // namespace grove

@@ -1,7 +1,5 @@
 #include "grove/render/integrator/ray_tracer.h"
 
-#include "grove/render/integrator/light_passage.h"
-
 namespace grove {
 
 Hit RayTracer::closest_hit(const Ray& ray, std::uint32_t bounce) {
@@ -17,25 +15,21 @@ bool RayTracer::any_hit(const Ray& ray) {
 }
 
 bool RayTracer::find_surface(const Ray& ray, SurfaceHit& result) {
-  const std::uint32_t bounce = surfaces_++;
+  const std::uint32_t vertex = surfaces_++;
   result.ray = ray;
-  for (int passage = 0; passage < kMostPassages; ++passage) {
-    result.hit = closest_hit(result.ray, bounce);
-    if (!result.hit) return false;
-    if (!stops_ray(*world_, result.hit, *sampler_, chances_taken_, result.ray)) continue;
-    result.point = world_->surfaces.at(result.ray, result.hit);
-    return true;
+  result.hit = closest_hit(ray, vertex);
+  if (result.hit && world_->materials.any_can_pass_light()) {
+    ChanceFilter chance(*world_, *sampler_, vertex, ray);
+    if (!chance.stops(result.hit)) result.hit = world_->accelerator.closest_hit(from_hit_on(ray, result.hit), chance.filter());
   }
-  return false;
+  if (!result.hit) return false;
+  result.point = world_->surfaces.at(ray, result.hit);
+  return true;
 }
 
-float RayTracer::transmittance(Ray ray) {
+float RayTracer::transmittance(const Ray& ray) {
   if (!world_->materials.any_can_pass_light()) return any_hit(ray) ? 0.0F : 1.0F;
-  LightPassage light(ray);
-  for (int passage = 0; passage < kMostPassages; ++passage) {
-    if (!light.pass(*world_, closest_hit(ray, surfaces_), ray)) return light.transmittance();
-  }
-  return 0.0F;
+  return transmittance_behind(*world_, ray, closest_hit(ray, surfaces_), light_);
 }
 
 }  // namespace grove

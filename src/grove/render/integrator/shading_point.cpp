@@ -3,7 +3,7 @@
 namespace grove {
 
 ShadingPoint::ShadingPoint(const PreparedScene& world, const SurfacePoint& point, const Vec3& to_viewer, float u) {
-  const bool is_outside = glm::dot(to_viewer, point.geometric_normal) >= 0.0F;
+  is_outside = glm::dot(to_viewer, point.geometric_normal) >= 0.0F;
   facing_geometric = is_outside ? point.geometric_normal : -point.geometric_normal;
   Vec3 normal = world.materials.shading_normal(point);
   if (!is_outside) normal = -normal;
@@ -18,7 +18,7 @@ ShadingPoint::ShadingPoint(const PreparedScene& world, const SurfacePoint& point
   frame = Frame(normal);
   wo = frame.to_local(to_viewer);
   wo.z = std::max(wo.z, 1e-6F);
-  bsdf = world.materials.bsdf(point, is_outside, u);
+  bsdf = world.materials.bsdf(point, {frame, wo, is_outside}, u);
 }
 
 }  // namespace grove

@@ -11,6 +11,7 @@ namespace grove {
 struct ShadingPoint {
   Frame frame;
   Vec3 wo{0.0F};                ///< local, wo.z > 0
+  bool is_outside = true;       ///< the viewer is on the side of the geometric normal
   Vec3 facing_geometric{0.0F};  ///< geometric normal on the viewer's side, world
   Bsdf bsdf;
 

@@ -180,7 +180,8 @@ Vec3 LightTable::emitted(const SurfacePoint& point, const Vec3& direction) const
   const Material& material = scene_->materials[point.material];
   if (!material.is_emissive()) return Vec3(0.0F);
   if (!material.two_sided_emission && glm::dot(direction, point.geometric_normal) <= 0.0F) return Vec3(0.0F);
-  return evaluate(*scene_, material.emission, point.uv);
+  const Vec3 emission = evaluate(*scene_, material.emission, point.coordinates());
+  return material.emits_vertex_colour ? emission * Vec3(point.colour) : emission;
 }
 
 LightSample LightTable::sample(const LightReceiver& receiver, const Vec2& u_light, const Vec2& u) const {

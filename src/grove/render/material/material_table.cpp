@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/exponential.hpp>
 
 #include "grove/render/material/opacity.h"
 #include "grove/render/surface/perturb_normal.h"
@@ -9,14 +10,6 @@
 
 namespace grove {
 namespace {
-
-// Where indices of refraction stop to mean anything.
-constexpr float kMinIor = 0.1F;
-constexpr float kMaxIor = 10.0F;
-
-float usable_ior(float ior) {
-  return ior > 0.0F ? std::clamp(ior, kMinIor, kMaxIor) : 1.0F;
-}
 
 // A coat that is thinner than the air around it is no coat.
 float coat_ior(float ior) {
@@ -42,15 +35,26 @@ float unit(float value) {
   return value > 0.0F ? std::min(value, 1.0F) : 0.0F;
 }
 
-float ggx_alpha(const Scene& scene, const ScalarParameter& roughness, const Vec2& uv) {
+float ggx_alpha(const Scene& scene, const ScalarParameter& roughness, const TextureCoordinates& uv) {
   const float perceptual = unit(evaluate(scene, roughness, uv));
   return perceptual * perceptual;
+}
+
+// The coefficient of Beer's law: attenuation_colour is left after attenuation_distance.
+Vec3 absorption_inside(const Material& material) {
+  if (material.kind != MaterialKind::metallic_roughness || material.thin_walled || !(material.transmission.value > 0.0F)) return Vec3(0.0F);
+  // Not quite black, so that a way of no length still lets everything through.
+  const Vec3 colour = glm::clamp(material.attenuation_colour, Vec3(1e-6F), Vec3(1.0F));
+  return -glm::log(colour) / material.attenuation_distance;
 }
 
 }  // namespace
 
 MaterialTable::MaterialTable(const Scene& scene) : scene_(&scene) {
+  absorption_.reserve(scene.materials.size());
   for (const Material& material : scene.materials) {
+    absorption_.push_back(absorption_inside(material));
+    any_absorbs_inside_ = any_absorbs_inside_ || absorption_.back() != Vec3(0.0F);
     const bool passes = grove::can_pass_light(scene, material);
     can_pass_light_.push_back(passes ? 1 : 0);
     any_can_pass_light_ = any_can_pass_light_ || passes;
@@ -58,12 +62,19 @@ MaterialTable::MaterialTable(const Scene& scene) : scene_(&scene) {
     const float ior = has_coat(material) ? coat_ior(material.ior) : usable_ior(material.ior);
     if (auto& entry = tables_[ior]; entry == nullptr) entry = std::make_unique<DielectricAlbedo>(ior);
   }
-  (void)ggx_albedo();  // made here, outside of parallel work
+  // Made here, outside of parallel work.
+  (void)ggx_albedo();
+  const auto has_sheen = [](const Material& material) { return material.sheen_colour.value != Vec3(0.0F); };
+  if (std::ranges::any_of(scene.materials, has_sheen)) (void)sheen_albedo();
 }
 
 const DielectricAlbedo* MaterialTable::table(float ior) const {
   const auto found = tables_.find(ior);
   return found == tables_.end() ? nullptr : found->second.get();
+}
+
+Vec3 MaterialTable::transmittance_inside(std::uint32_t material, float distance) const {
+  return glm::exp(-absorption_[material] * distance);
 }
 
 Vec3 MaterialTable::shading_normal(const SurfacePoint& point) const {
@@ -72,27 +83,10 @@ Vec3 MaterialTable::shading_normal(const SurfacePoint& point) const {
   return perturbed_normal(*scene_, material, point);
 }
 
-Bsdf MaterialTable::metallic_roughness(const Material& material, const SurfacePoint& point, bool is_outside, float u) const {
-  const Vec3 colour = reflectance(evaluate(*scene_, material.base_colour, point.uv) * Vec3(point.colour));
-  const float alpha = ggx_alpha(*scene_, material.roughness, point.uv);
-  const float metallic = unit(evaluate(*scene_, material.metallic, point.uv));
-  const float ior = usable_ior(material.ior);
-  const float f0 = (ior - 1.0F) * (ior - 1.0F) / ((ior + 1.0F) * (ior + 1.0F));
-  const float transmission = material.transmission.value > 0.0F ? unit(evaluate(*scene_, material.transmission, point.uv)) : 0.0F;
-  // The transmissive part of the dielectric part, as a share of the whole; what is left is the same material without transmission.
-  const float share = transmission * (1.0F - metallic);
-  if (u < share) {
-    if (material.thin_walled) return ThinTransmissionBsdf{.tint = colour, .f0 = f0, .alpha = alpha};
-    return DielectricBsdf{.eta = is_outside ? ior : 1.0F / ior, .alpha = alpha, .albedo_table = table(ior), .tint = colour};
-  }
-  const float rest = share < 1.0F ? std::min(1.0F, metallic / (1.0F - share)) : 0.0F;
-  return MetallicRoughnessBsdf{.base_colour = colour, .metallic = rest, .alpha = alpha, .dielectric_f0 = f0};
-}
-
-Bsdf MaterialTable::bsdf(const SurfacePoint& point, bool is_outside, float u) const {
+Bsdf MaterialTable::bsdf(const SurfacePoint& point, const SurfaceView& view, float u) const {
   const Material* chosen = &scene_->materials[point.material];
   while (chosen->kind == MaterialKind::mix) {
-    float amount = unit(evaluate(*scene_, chosen->mix_amount, point.uv));
+    float amount = unit(evaluate(*scene_, chosen->mix_amount, point.coordinates()));
     if (can_pass_light_[point.material] != 0) {
       // Light has met the surface already, more likely the material that lets less of it pass.
       const float first = (1.0F - amount) * opacity(*scene_, scene_->materials[chosen->mix_material[0]], point);
@@ -104,7 +98,7 @@ Bsdf MaterialTable::bsdf(const SurfacePoint& point, bool is_outside, float u) co
     u = is_second ? u / amount : (u - amount) / (1.0F - amount);
   }
   const Material& material = *chosen;
-  const Vec2& uv = point.uv;
+  const TextureCoordinates uv = point.coordinates();
   const auto base_colour = [&] { return reflectance(evaluate(*scene_, material.base_colour, uv) * Vec3(point.colour)); };
   const auto metal = [&](float outer_ior) {
     MetalFresnel fresnel{.has_complex_ior = material.has_complex_ior};
@@ -118,7 +112,7 @@ Bsdf MaterialTable::bsdf(const SurfacePoint& point, bool is_outside, float u) co
   };
   switch (material.kind) {
     case MaterialKind::metallic_roughness:
-      return metallic_roughness(material, point, is_outside, u);
+      return gltf_bsdf(*scene_, material, point, view, table(usable_ior(material.ior)), u);
     case MaterialKind::diffuse:
       return DiffuseBsdf{base_colour()};
     case MaterialKind::coated_diffuse: {
@@ -134,7 +128,7 @@ Bsdf MaterialTable::bsdf(const SurfacePoint& point, bool is_outside, float u) co
     case MaterialKind::dielectric: {
       const float ior = usable_ior(material.ior);
       return DielectricBsdf{
-          .eta = is_outside ? ior : 1.0F / ior, .alpha = ggx_alpha(*scene_, material.roughness, uv), .albedo_table = table(ior)};
+          .eta = view.is_outside ? ior : 1.0F / ior, .alpha = ggx_alpha(*scene_, material.roughness, uv), .albedo_table = table(ior)};
     }
     case MaterialKind::thin_dielectric:
       return ThinDielectricBsdf{usable_ior(material.ior)};

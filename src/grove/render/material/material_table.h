@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grove/render/bsdf/bsdf.h"
+#include "grove/render/material/gltf_surface.h"
 #include "grove/render/surface/surface_point.h"
 #include "grove/scene/scene.h"
 
@@ -17,12 +18,19 @@ class MaterialTable {
   /// Integrates a table for each index of refraction that rough glass and coats have.
   explicit MaterialTable(const Scene& scene);
 
-  /// The surface's scattering function for light that leaves on the outer side (of the geometric normal) or the inner. `u` in [0, 1) decides
-  /// between the materials of a mix, and between transmission and the rest of a glTF material.
-  [[nodiscard]] Bsdf bsdf(const SurfacePoint& point, bool is_outside, float u) const;
+  /// The surface's scattering function as seen by a viewer. `u` in [0, 1) decides between the materials of a mix, and between transmission and
+  /// the rest of a glTF material.
+  [[nodiscard]] Bsdf bsdf(const SurfacePoint& point, const SurfaceView& view, float u) const;
 
   /// The shading normal with normal and bump maps, on the outer side.
   [[nodiscard]] Vec3 shading_normal(const SurfacePoint& point) const;
+
+  /// The part of light that is left after a way of `distance` world units inside of a volume with this boundary, by Beer's law (KHR_materials_volume).
+  [[nodiscard]] Vec3 transmittance_inside(std::uint32_t material, float distance) const;
+
+  /// Whether light that crosses this boundary is inside of a volume that absorbs.
+  [[nodiscard]] bool absorbs_inside(std::uint32_t material) const { return absorption_[material] != Vec3(0.0F); }
+  [[nodiscard]] bool any_absorbs_inside() const { return any_absorbs_inside_; }
 
   /// Whether light may pass surfaces of this material (`opacity` below 1).
   [[nodiscard]] bool can_pass_light(std::uint32_t material) const { return can_pass_light_[material] != 0; }
@@ -30,11 +38,12 @@ class MaterialTable {
 
  private:
   [[nodiscard]] const DielectricAlbedo* table(float ior) const;
-  [[nodiscard]] Bsdf metallic_roughness(const Material& material, const SurfacePoint& point, bool is_outside, float u) const;
 
   const Scene* scene_;
   std::map<float, std::unique_ptr<const DielectricAlbedo>> tables_;
+  std::vector<Vec3> absorption_;  // by material, per world unit
   std::vector<std::uint8_t> can_pass_light_;
+  bool any_absorbs_inside_ = false;
   bool any_can_pass_light_ = false;
 };
 

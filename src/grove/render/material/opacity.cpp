@@ -10,12 +10,12 @@ float opacity(const Scene& scene, const Material& material, const SurfacePoint& 
   float result = 1.0F;
   if (material.kind == MaterialKind::interface && !material.is_emissive()) return 0.0F;
   if (material.kind == MaterialKind::mix) {
-    const float amount = std::clamp(evaluate(scene, material.mix_amount, point.uv), 0.0F, 1.0F);
+    const float amount = std::clamp(evaluate(scene, material.mix_amount, point.coordinates()), 0.0F, 1.0F);
     result = opacity(scene, scene.materials[material.mix_material[0]], point) * (1.0F - amount) +
              opacity(scene, scene.materials[material.mix_material[1]], point) * amount;
   }
   if (material.alpha_mode == AlphaMode::opaque) return result;
-  const float alpha = evaluate(scene, material.alpha, point.uv) * point.colour.w;
+  const float alpha = evaluate(scene, material.alpha, point.coordinates()) * point.colour.w;
   if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff ? result : 0.0F;
   return result * std::clamp(alpha, 0.0F, 1.0F);
 }

@@ -16,6 +16,8 @@ struct Tangents {
 // The texture's right and up on the surface, in the plane of the normal; false where the mesh does not tell.
 bool texture_tangents(const Texture& texture, const SurfacePoint& point, Tangents& result) {
   const Vec3& n = point.shading_normal;
+  const Vec3& dp_du = texture.uv_set == 1 ? point.second_dp_du : point.dp_du;
+  const Vec3& dp_dv = texture.uv_set == 1 ? point.second_dp_dv : point.dp_dv;
   Vec3 along = Vec3(point.tangent);
   float handedness = point.tangent.w;
   if (along == Vec3(0.0F)) {
@@ -25,8 +27,8 @@ bool texture_tangents(const Texture& texture, const SurfacePoint& point, Tangent
     const float determinant = to_image[0][0] * to_image[1][1] - to_image[1][0] * to_image[0][1];
     if (determinant == 0.0F) return false;
     // Where u of the image grows while v stays: the first column of the inverse.
-    along = (to_image[1][1] * point.dp_du - to_image[0][1] * point.dp_dv) / determinant;
-    handedness = glm::dot(glm::cross(point.dp_du, point.dp_dv), n) * determinant < 0.0F ? 1.0F : -1.0F;
+    along = (to_image[1][1] * dp_du - to_image[0][1] * dp_dv) / determinant;
+    handedness = glm::dot(glm::cross(dp_du, dp_dv), n) * determinant < 0.0F ? 1.0F : -1.0F;
   }
   along -= n * glm::dot(n, along);
   const float length = glm::length(along);
@@ -36,11 +38,11 @@ bool texture_tangents(const Texture& texture, const SurfacePoint& point, Tangent
   return true;
 }
 
-Vec3 normal_mapped(const Scene& scene, const Material& material, const SurfacePoint& point) {
+Vec3 normal_mapped(const Scene& scene, std::uint32_t texture, float scale, const SurfacePoint& point) {
   Tangents frame;
-  if (!texture_tangents(scene.textures[material.normal_texture], point, frame)) return point.shading_normal;
-  const Vec3 value = 2.0F * Vec3(evaluate_texture(scene, material.normal_texture, point.uv)) - Vec3(1.0F);
-  return material.normal_scale * (value.x * frame.tangent + value.y * frame.bitangent) + value.z * point.shading_normal;
+  if (!texture_tangents(scene.textures[texture], point, frame)) return point.shading_normal;
+  const Vec3 value = 2.0F * Vec3(evaluate_texture(scene, texture, point.coordinates())) - Vec3(1.0F);
+  return scale * (value.x * frame.tangent + value.y * frame.bitangent) + value.z * point.shading_normal;
 }
 
 // Blinn 1978, "Simulation of Wrinkled Surfaces": the normal of the surface moved along its normal by the height.
@@ -55,16 +57,25 @@ Vec3 bumped(const Scene& scene, const Material& material, const SurfacePoint& po
   return glm::dot(glm::cross(point.dp_du, point.dp_dv), normal) < 0.0F ? -moved : moved;
 }
 
+// Of unit length and on the outer side, or the vertex normals'.
+Vec3 usable(const Vec3& normal, const SurfacePoint& point) {
+  const float length = glm::length(normal);
+  if (!(length > 1e-20F) || !std::isfinite(length)) return point.shading_normal;
+  return glm::dot(normal, point.geometric_normal) < 0.0F ? point.shading_normal : normal / length;
+}
+
 }  // namespace
 
 Vec3 perturbed_normal(const Scene& scene, const Material& material, const SurfacePoint& point) {
   Vec3 normal = point.shading_normal;
-  if (material.normal_texture != kNoTexture) normal = normal_mapped(scene, material, point);
+  if (material.normal_texture != kNoTexture) normal = normal_mapped(scene, material.normal_texture, material.normal_scale, point);
   if (material.bump.texture != kNoTexture && material.bump.value != 0.0F) normal = bumped(scene, material, point, glm::normalize(normal));
-  const float length = glm::length(normal);
-  if (!(length > 1e-20F) || !std::isfinite(length)) return point.shading_normal;
-  normal /= length;
-  return glm::dot(normal, point.geometric_normal) < 0.0F ? point.shading_normal : normal;
+  return usable(normal, point);
+}
+
+Vec3 coat_normal(const Scene& scene, const Material& material, const SurfacePoint& point) {
+  if (material.coat_normal_texture == kNoTexture) return point.shading_normal;
+  return usable(normal_mapped(scene, material.coat_normal_texture, material.coat_normal_scale, point), point);
 }
 
 }  // namespace grove

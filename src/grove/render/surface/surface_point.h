@@ -5,6 +5,7 @@
 #include "grove/geometry/hit.h"
 #include "grove/geometry/ray.h"
 #include "grove/math/vector.h"
+#include "grove/render/texture/texture_coordinates.h"
 
 namespace grove {
 
@@ -19,13 +20,19 @@ struct SurfacePoint {
   /// How position changes with (u, v); zeros where the texture coordinates say nothing.
   Vec3 dp_du{0.0F};
   Vec3 dp_dv{0.0F};
+  /// The same with the second set of texture coordinates; those of the first where there is none.
+  Vec3 second_dp_du{0.0F};
+  Vec3 second_dp_dv{0.0F};
   /// A vertex tangent with the handedness of the bitangent in w; zeros where the mesh has none.
   Vec4 tangent{0.0F};
   Vec2 uv{0.0F};
+  Vec2 second_uv{0.0F};
   Vec4 colour{1.0F};  ///< vertex colour
   std::uint32_t material = 0;
   /// Bounds how far rounding may have put `position` off the surface that traversal sees; see `offset_origin`.
   float error = 0.0F;
+
+  [[nodiscard]] TextureCoordinates coordinates() const { return {uv, second_uv}; }
 
   /// An origin for a ray that leaves towards `direction`, moved along the geometric normal to the side that it leaves on, just far enough
   /// that traversal cannot find this surface again. The distance follows from the rounding errors of the coordinates at hand, not

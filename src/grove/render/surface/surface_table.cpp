@@ -43,6 +43,23 @@ T interpolate(const std::vector<T>& values, const Triangle& corner, const Vec2& 
   return values[corner.x] * (1.0F - uv.x - uv.y) + values[corner.y] * uv.x + values[corner.z] * uv.y;
 }
 
+// How position changes with the texture coordinates over a triangle; left as they are where those say nothing.
+void texture_derivatives(const std::vector<Vec2>& uvs, const Triangle& corner, const Vec3& edge1, const Vec3& edge2, Vec3& dp_du,
+                         Vec3& dp_dv) {
+  const Vec2 d1 = uvs[corner.y] - uvs[corner.x];
+  const Vec2 d2 = uvs[corner.z] - uvs[corner.x];
+  const float determinant = d1.x * d2.y - d1.y * d2.x;
+  if (determinant == 0.0F) return;
+  dp_du = (d2.y * edge1 - d1.y * edge2) / determinant;
+  dp_dv = (d1.x * edge2 - d2.x * edge1) / determinant;
+}
+
+void use_first_uvs(SurfacePoint& point) {
+  point.second_uv = point.uv;
+  point.second_dp_du = point.dp_du;
+  point.second_dp_dv = point.dp_dv;
+}
+
 Vec2 sphere_uv(const Vec3& normal) {
   const float azimuth = std::atan2(normal.y, normal.x) / (2.0F * kPi);
   return {azimuth < 0.0F ? azimuth + 1.0F : azimuth, std::acos(std::clamp(normal.z, -1.0F, 1.0F)) / kPi};
@@ -139,15 +156,14 @@ SurfacePoint SurfaceTable::triangle_point(const InstanceView& instance, const Pa
     point.dp_du = edge1;
     point.dp_dv = edge2;
   } else {
-    const Vec2& t0 = data.uvs[corner.x];
-    const Vec2 d1 = data.uvs[corner.y] - t0;
-    const Vec2 d2 = data.uvs[corner.z] - t0;
     point.uv = interpolate(data.uvs, corner, barycentric);
-    const float determinant = d1.x * d2.y - d1.y * d2.x;
-    if (determinant != 0.0F) {
-      point.dp_du = (d2.y * edge1 - d1.y * edge2) / determinant;
-      point.dp_dv = (d1.x * edge2 - d2.x * edge1) / determinant;
-    }
+    texture_derivatives(data.uvs, corner, edge1, edge2, point.dp_du, point.dp_dv);
+  }
+  if (data.second_uvs.empty()) {
+    use_first_uvs(point);
+  } else {
+    point.second_uv = interpolate(data.second_uvs, corner, barycentric);
+    texture_derivatives(data.second_uvs, corner, edge1, edge2, point.second_dp_du, point.second_dp_dv);
   }
   to_world(instance, std::max({magnitude(v0), magnitude(v1), magnitude(v2)}), point);
   return point;
@@ -166,6 +182,7 @@ SurfacePoint SurfaceTable::sphere_point(const InstanceView& instance, const Part
   const float sine = std::sqrt(normal.x * normal.x + normal.y * normal.y);
   point.dp_du = 2.0F * kPi * sphere.radius * Vec3(-normal.y, normal.x, 0.0F);
   if (sine > 0.0F) point.dp_dv = kPi * sphere.radius * Vec3(normal.z * normal.x / sine, normal.z * normal.y / sine, -sine);
+  use_first_uvs(point);
   to_world(instance, magnitude(sphere.centre) + sphere.radius, point);
   return point;
 }
@@ -185,6 +202,8 @@ void SurfaceTable::to_world(const InstanceView& instance, float object_magnitude
   point.shading_normal = normalised_or(transform.normal(point.shading_normal), point.geometric_normal);
   point.dp_du = transform.vector(point.dp_du);
   point.dp_dv = transform.vector(point.dp_dv);
+  point.second_dp_du = transform.vector(point.second_dp_du);
+  point.second_dp_dv = transform.vector(point.second_dp_dv);
   const float handedness = instance.is_mirrored ? -point.tangent.w : point.tangent.w;
   point.tangent = Vec4(transform.vector(Vec3(point.tangent)), handedness);
 }

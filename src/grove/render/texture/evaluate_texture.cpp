@@ -88,25 +88,25 @@ Vec4 evaluate_image(const Image& image, const Texture& texture, const Vec2& uv) 
   return upper * (1.0F - fy) + lower * fy;
 }
 
-Vec4 operand(const Scene& scene, const Texture& texture, int i, const Vec2& uv) {
+Vec4 operand(const Scene& scene, const Texture& texture, int i, const TextureCoordinates& uv) {
   return texture.operand[i] == kNoTexture ? texture.value[i] : evaluate_texture(scene, texture.operand[i], uv);
 }
 
 }  // namespace
 
-Vec4 evaluate_texture(const Scene& scene, std::uint32_t texture_id, const Vec2& uv) {
+Vec4 evaluate_texture(const Scene& scene, std::uint32_t texture_id, const TextureCoordinates& uv) {
   if (texture_id == kNoTexture) return Vec4(1.0F);
   const Texture& texture = scene.textures[texture_id];
   switch (texture.kind) {
     case TextureKind::constant:
       return texture.value[0];
     case TextureKind::image: {
-      const Vec2 place = Vec2(texture.uv_transform * Vec3(uv, 1.0F));
+      const Vec2 place = Vec2(texture.uv_transform * Vec3(uv.of(texture.uv_set), 1.0F));
       const Vec4 value = evaluate_image(*scene.images[texture.image], texture, place);
       return (texture.invert ? Vec4(1.0F) - value : value) * texture.value[0];
     }
     case TextureKind::checkerboard: {
-      const Vec2 place = Vec2(texture.uv_transform * Vec3(uv, 1.0F));
+      const Vec2 place = Vec2(texture.uv_transform * Vec3(uv.of(texture.uv_set), 1.0F));
       const float cells = std::floor(place.x) + std::floor(place.y);
       return operand(scene, texture, std::fmod(cells, 2.0F) == 0.0F ? 0 : 1, uv);
     }
@@ -120,12 +120,12 @@ Vec4 evaluate_texture(const Scene& scene, std::uint32_t texture_id, const Vec2& 
   return Vec4(1.0F);
 }
 
-Vec3 evaluate(const Scene& scene, const ColourParameter& parameter, const Vec2& uv) {
+Vec3 evaluate(const Scene& scene, const ColourParameter& parameter, const TextureCoordinates& uv) {
   if (parameter.texture == kNoTexture) return parameter.value;
   return parameter.value * Vec3(evaluate_texture(scene, parameter.texture, uv));
 }
 
-float evaluate(const Scene& scene, const ScalarParameter& parameter, const Vec2& uv) {
+float evaluate(const Scene& scene, const ScalarParameter& parameter, const TextureCoordinates& uv) {
   if (parameter.texture == kNoTexture) return parameter.value;
   return parameter.value * evaluate_texture(scene, parameter.texture, uv)[static_cast<int>(std::min(parameter.channel, 3U))];
 }

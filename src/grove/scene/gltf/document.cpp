@@ -20,14 +20,18 @@ constexpr int kDeepestJson = 100;
 constexpr std::uint64_t kGrowth = 64;
 constexpr std::uint64_t kFreeBytes = std::uint64_t{16} << 20;
 
-constexpr std::array<std::string_view, 13> kKnownExtensions{"KHR_draco_mesh_compression",
+constexpr std::array<std::string_view, 17> kKnownExtensions{"KHR_draco_mesh_compression",
                                                             "KHR_lights_punctual",
+                                                            "KHR_materials_clearcoat",
                                                             "KHR_materials_emissive_strength",
                                                             "KHR_materials_ior",
+                                                            "KHR_materials_sheen",
+                                                            "KHR_materials_specular",
                                                             "KHR_materials_transmission",
                                                             "KHR_materials_volume",
                                                             "KHR_materials_pbrSpecularGlossiness",
                                                             "KHR_materials_unlit",
+                                                            "KHR_materials_variants",
                                                             "KHR_mesh_quantization",
                                                             "KHR_texture_transform",
                                                             "EXT_mesh_gpu_instancing",
@@ -36,11 +40,6 @@ constexpr std::array<std::string_view, 13> kKnownExtensions{"KHR_draco_mesh_comp
 
 bool is_known(std::string_view extension) {
   return std::find(kKnownExtensions.begin(), kKnownExtensions.end(), extension) != kKnownExtensions.end();
-}
-
-// The other material extensions change a surface's look only: a scene without them is poorer, not wrong.
-bool is_dispensable(std::string_view extension) {
-  return is_known(extension) || extension.starts_with("KHR_materials_");
 }
 
 // Reads "parse error at line 1, column 5: …" from nlohmann's "[json.exception.parse_error.101] parse error at line 1, column 5: …".
@@ -111,7 +110,7 @@ void GltfDocument::check_extensions() const {
   const JsonCursor required = root_["extensionsRequired"];
   for (std::size_t i = 0; i < required.size(); ++i) {
     const std::string name = required.element(i).text();
-    if (!is_dispensable(name)) required.element(i).fail(name + " is required but not supported; export the scene without it");
+    if (!is_known(name)) required.element(i).fail(name + " is required but not supported; export the scene without it");
   }
 }
 

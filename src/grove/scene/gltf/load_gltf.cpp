@@ -19,6 +19,11 @@ namespace {
 Scene begin_scene(const GltfDocument& document) {
   Scene scene;
   for (const std::string& extension : ignored_extensions(document)) scene.warn("extension " + extension + " is not supported and left out");
+  const JsonCursor variants = document.root().extension("KHR_materials_variants")["variants"];
+  if (variants.size() > 0) {
+    scene.warn("KHR_materials_variants: the materials that the file shows by itself are taken, and its " + std::to_string(variants.size()) +
+               " variants are left out");
+  }
   return scene;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "grove/scene/gltf/textures.h"
@@ -9,10 +10,11 @@
 namespace grove {
 namespace {
 
-// glTF packs roughness into green and metallic into blue of one texture, transmission into red.
+// glTF packs roughness into green and metallic into blue of one texture; what is on its own stands in red, or in alpha beside a colour.
 constexpr std::uint32_t kRoughnessChannel = 1;
 constexpr std::uint32_t kMetallicChannel = 2;
-constexpr std::uint32_t kTransmissionChannel = 0;
+constexpr std::uint32_t kOwnChannel = 0;
+constexpr std::uint32_t kAlphaChannel = 3;
 
 float clamp_unit(float value) {
   return value > 0.0F ? std::min(value, 1.0F) : 0.0F;
@@ -55,10 +57,11 @@ class MaterialReader {
     read_alpha(source, material);
     read_emission(source, material);
     read_transmission(source, material);
-    if (source.extension("KHR_materials_unlit").exists()) {
-      warn("KHR_materials_unlit: unlit surfaces are shown as matt ones, such as " + source.path(), "unlit");
-      material.kind = MaterialKind::diffuse;
-    }
+    read_volume(source.extension("KHR_materials_volume"), material);
+    read_specular(source.extension("KHR_materials_specular"), material);
+    read_coat(source.extension("KHR_materials_clearcoat"), material);
+    read_sheen(source.extension("KHR_materials_sheen"), material);
+    if (source.extension("KHR_materials_unlit").exists()) make_unlit(material);
     return material;
   }
 
@@ -119,6 +122,19 @@ class MaterialReader {
     material.emission.value = clamp_positive(source["emissiveFactor"].vec3(Vec3(0.0F)) * strength);
     // With a factor of 0 the texture has nothing to scale.
     if (material.is_emissive()) material.emission.texture = textures_.add(source["emissiveTexture"], TextureUse::colour);
+    // The back of a single-sided surface is not drawn, and so does not shine.
+    material.two_sided_emission = source["doubleSided"].boolean(false);
+  }
+
+  [[nodiscard]] ScalarParameter read_scalar(const JsonCursor& extension, const char* factor, const char* texture, float fallback,
+                                            std::uint32_t channel) {
+    const float value = clamp_unit(extension[factor].real(fallback));
+    return {value, value > 0.0F ? textures_.add(extension[texture], TextureUse::data) : kNoTexture, channel};
+  }
+
+  [[nodiscard]] ColourParameter read_colour(const JsonCursor& extension, const char* factor, const char* texture, const Vec3& fallback) {
+    const Vec3 value = clamp_positive(extension[factor].vec3(fallback));
+    return {value, value != Vec3(0.0F) ? textures_.add(extension[texture], TextureUse::colour) : kNoTexture};
   }
 
   void read_transmission(const JsonCursor& source, Material& material) {
@@ -127,12 +143,48 @@ class MaterialReader {
     material.ior = ior > 0.0F ? std::clamp(ior, 1.0F, 1e3F) : 1e3F;
     const JsonCursor transmission = source.extension("KHR_materials_transmission");
     material.transmission = {clamp_unit(transmission["transmissionFactor"].real(0.0F)),
-                             textures_.add(transmission["transmissionTexture"], TextureUse::data), kTransmissionChannel};
-    const JsonCursor volume = source.extension("KHR_materials_volume");
+                             textures_.add(transmission["transmissionTexture"], TextureUse::data), kOwnChannel};
+  }
+
+  // Paths find out how thick a volume is, so that of the thickness only matters whether there is any.
+  void read_volume(const JsonCursor& volume, Material& material) {
     material.thin_walled = !(volume["thicknessFactor"].real(0.0F) > 0.0F);
-    if (!material.thin_walled && volume["attenuationDistance"].exists()) {
-      warn("KHR_materials_volume: attenuation inside is left out, such as in " + source.path(), "attenuation");
+    const float distance = volume["attenuationDistance"].real(std::numeric_limits<float>::infinity());
+    if (distance > 0.0F) {
+      material.attenuation_distance = distance;
+    } else {
+      warn("KHR_materials_volume: an attenuation distance that is not above 0 is taken as infinite, such as in " + volume.path(),
+           "attenuation");
     }
+    material.attenuation_colour = glm::min(clamp_positive(volume["attenuationColor"].vec3(Vec3(1.0F))), Vec3(1.0F));
+  }
+
+  void read_specular(const JsonCursor& specular, Material& material) {
+    material.specular = read_scalar(specular, "specularFactor", "specularTexture", 1.0F, kAlphaChannel);
+    material.specular_colour = read_colour(specular, "specularColorFactor", "specularColorTexture", Vec3(1.0F));
+  }
+
+  void read_coat(const JsonCursor& coat, Material& material) {
+    material.coat = read_scalar(coat, "clearcoatFactor", "clearcoatTexture", 0.0F, kOwnChannel);
+    if (!(material.coat.value > 0.0F)) return;
+    material.coat_roughness = read_scalar(coat, "clearcoatRoughnessFactor", "clearcoatRoughnessTexture", 0.0F, kRoughnessChannel);
+    material.coat_normal_texture = textures_.add(coat["clearcoatNormalTexture"], TextureUse::data);
+    material.coat_normal_scale = coat["clearcoatNormalTexture"]["scale"].real(1.0F);
+  }
+
+  void read_sheen(const JsonCursor& sheen, Material& material) {
+    material.sheen_colour = read_colour(sheen, "sheenColorFactor", "sheenColorTexture", Vec3(0.0F));
+    if (material.sheen_colour.value == Vec3(0.0F)) return;
+    material.sheen_roughness = read_scalar(sheen, "sheenRoughnessFactor", "sheenRoughnessTexture", 0.0F, kAlphaChannel);
+  }
+
+  // The same radiance from all sides, whatever shines on the surface: it emits its base colour and scatters nothing.
+  static void make_unlit(Material& material) {
+    material.kind = MaterialKind::diffuse;
+    material.emission = material.base_colour;
+    material.emits_vertex_colour = true;
+    material.two_sided_emission = true;
+    material.base_colour = {.value = Vec3(0.0F)};
   }
 
   GltfDocument& document_;

@@ -29,6 +29,7 @@ struct ObjectBuilder {
     part.material = material;
     part.normals = std::move(surface.normals);
     part.uvs = std::move(surface.uvs);
+    part.second_uvs = std::move(surface.second_uvs);
     part.tangents = std::move(surface.tangents);
     part.colours = std::move(surface.colours);
     mesh->add_part(std::move(surface.vertices), std::move(surface.triangles));

@@ -58,6 +58,9 @@ GltfSurface read_surface(GltfDocument& document, Scene& scene, const JsonCursor&
     return surface;
   }
   surface.uvs = source.vec2s("TEXCOORD_0");
+  if (std::ranges::any_of(scene.textures, [](const Texture& texture) { return texture.uv_set == 1; })) {
+    surface.second_uvs = source.vec2s("TEXCOORD_1");
+  }
   surface.colours = source.colours("COLOR_0");
   DeformableSurface plain;
   plain.triangles = source.triangles();

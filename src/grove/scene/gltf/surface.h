@@ -18,6 +18,7 @@ struct GltfSurface {
   std::vector<Triangle> triangles;
   std::vector<Vec3> normals;
   std::vector<Vec2> uvs;
+  std::vector<Vec2> second_uvs;
   std::vector<Vec4> tangents;
   std::vector<Vec4> colours;
   /// What it was before it was morphed and bent, with all its targets, where that was asked for.

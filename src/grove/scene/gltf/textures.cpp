@@ -43,13 +43,14 @@ std::uint32_t GltfTextures::add(const JsonCursor& info, TextureUse use) {
   if (!info.exists()) return kNoTexture;
   const JsonCursor transform = info.extension("KHR_texture_transform");
   const std::uint64_t uv_set = transform["texCoord"].whole(info["texCoord"].whole(0));
-  if (uv_set != 0 && document_.is_first("texture coordinates")) {
-    scene_.warn("textures that use another set of texture coordinates than TEXCOORD_0 are shown with it, such as " + info.path());
+  if (uv_set > 1 && document_.is_first("texture coordinates")) {
+    scene_.warn("textures that use sets of texture coordinates beyond TEXCOORD_1 are shown with TEXCOORD_0, such as " + info.path());
   }
+  const std::uint32_t known_set = uv_set == 1 ? 1 : 0;
   const JsonCursor textures = document_.array("textures");
   const std::uint32_t id = info["index"].required_index(textures.size(), "textures");
   if (!transform.exists()) {
-    const auto found = textures_.find({id, use});
+    const auto found = textures_.find({id, use, known_set});
     if (found != textures_.end()) return found->second;
   }
 
@@ -58,6 +59,7 @@ std::uint32_t GltfTextures::add(const JsonCursor& info, TextureUse use) {
   texture.name = description["name"].text();
   texture.kind = TextureKind::image;
   texture.srgb = use == TextureUse::colour;
+  texture.uv_set = known_set;
   if (transform.exists()) texture.uv_transform = read_transform(transform);
   set_sampler(description, texture);
   const auto source = description["source"].index(document_.array("images").size(), "images");
@@ -70,7 +72,7 @@ std::uint32_t GltfTextures::add(const JsonCursor& info, TextureUse use) {
     result = static_cast<std::uint32_t>(scene_.textures.size());
     scene_.textures.push_back(std::move(texture));
   }
-  if (!transform.exists()) textures_[{id, use}] = result;
+  if (!transform.exists()) textures_[{id, use, known_set}] = result;
   return result;
 }
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <utility>
+#include <tuple>
 
 #include "grove/scene/gltf/document.h"
 #include "grove/scene/scene.h"
@@ -31,8 +31,8 @@ class GltfTextures {
   Scene& scene_;
   /// By glTF image number; kNoTexture for those that cannot be read.
   std::map<std::uint32_t, std::uint32_t> images_;
-  /// By glTF texture number and use, for those without a transform.
-  std::map<std::pair<std::uint32_t, TextureUse>, std::uint32_t> textures_;
+  /// By glTF texture number, use and set of coordinates, for those without a transform.
+  std::map<std::tuple<std::uint32_t, TextureUse, std::uint32_t>, std::uint32_t> textures_;
 };
 
 }  // namespace grove
