@@ -43,15 +43,6 @@ Ray to_object(const Ray& ray, const Transform& transform) {
   return result;
 }
 
-// Takes what was found in an instance when it is closer, or as close in an earlier instance.
-bool take_closer(const Hit& found, std::size_t i, Hit& hit) {
-  const auto id = static_cast<std::uint32_t>(i);
-  if (!found || !(found.t < hit.t || (found.t == hit.t && id < hit.instance))) return false;
-  hit = found;
-  hit.instance = id;
-  return true;
-}
-
 // A filter as the object of one instance sees it: hits are told with the instance's number.
 class InstanceFilter {
  public:
@@ -116,36 +107,44 @@ InstanceSet::PreparedRay InstanceSet::prepare(const Ray& ray) {
   return {ray, 1.0 / glm::dvec3(ray.direction)};
 }
 
-bool InstanceSet::intersect(std::size_t i, const PreparedRay& ray, Hit& hit, TraversalCounts* counts) const {
+bool InstanceSet::take_closer(const Hit& found, std::size_t i, Hit& hit) {
+  const auto id = static_cast<std::uint32_t>(i);
+  if (!found || !(found.t < hit.t || (found.t == hit.t && id < hit.instance))) return false;
+  hit = found;
+  hit.instance = id;
+  return true;
+}
+
+bool InstanceSet::enter(std::size_t i, const PreparedRay& ray, float t_max, Ray& object_ray) const {
   if (bounds_[i].is_empty()) return false;
-  const Ray clipped = clip_to_bounds(ray, bounds_[i], hit.t);
+  const Ray clipped = clip_to_bounds(ray, bounds_[i], t_max);
   if (!(clipped.t_min <= clipped.t_max)) return false;
-  const Instance& instance = instances_[i];
-  return take_closer(instance.object->closest_hit(to_object(clipped, instance.object_to_world), counts), i, hit);
+  object_ray = to_object(clipped, instances_[i].object_to_world);
+  return true;
+}
+
+bool InstanceSet::intersect(std::size_t i, const PreparedRay& ray, Hit& hit, TraversalCounts* counts) const {
+  Ray object_ray;
+  return enter(i, ray, hit.t, object_ray) && take_closer(instances_[i].object->closest_hit(object_ray, counts), i, hit);
 }
 
 bool InstanceSet::occluded(std::size_t i, const PreparedRay& ray, TraversalCounts* counts) const {
-  if (bounds_[i].is_empty()) return false;
-  const Ray clipped = clip_to_bounds(ray, bounds_[i], ray.ray.t_max);
-  if (!(clipped.t_min <= clipped.t_max)) return false;
-  return instances_[i].object->any_hit(to_object(clipped, instances_[i].object_to_world), counts);
+  Ray object_ray;
+  return enter(i, ray, ray.ray.t_max, object_ray) && instances_[i].object->any_hit(object_ray, counts);
 }
 
 bool InstanceSet::intersect(std::size_t i, const PreparedRay& ray, Hit& hit, const HitFilter& filter) const {
-  if (bounds_[i].is_empty()) return false;
-  const Ray clipped = clip_to_bounds(ray, bounds_[i], hit.t);
-  if (!(clipped.t_min <= clipped.t_max)) return false;
-  const Instance& instance = instances_[i];
+  Ray object_ray;
+  if (!enter(i, ray, hit.t, object_ray)) return false;
   InstanceFilter below(filter, i);
-  return take_closer(instance.object->closest_hit(to_object(clipped, instance.object_to_world), below.filter()), i, hit);
+  return take_closer(instances_[i].object->closest_hit(object_ray, below.filter()), i, hit);
 }
 
 bool InstanceSet::occluded(std::size_t i, const PreparedRay& ray, const HitFilter& filter) const {
-  if (bounds_[i].is_empty()) return false;
-  const Ray clipped = clip_to_bounds(ray, bounds_[i], ray.ray.t_max);
-  if (!(clipped.t_min <= clipped.t_max)) return false;
+  Ray object_ray;
+  if (!enter(i, ray, ray.ray.t_max, object_ray)) return false;
   InstanceFilter below(filter, i);
-  return instances_[i].object->any_hit(to_object(clipped, instances_[i].object_to_world), below.filter());
+  return instances_[i].object->any_hit(object_ray, below.filter());
 }
 
 }  // namespace grove

@@ -69,6 +69,12 @@ class InstanceSet {
 
   void locate(Hit& /*hit*/) const {}
 
+  /// For callers that trace the objects of instances themselves: the ray in the space of instance i, as far as `t_max` and the instance's
+  /// bounds reach. Returns false where it cannot hit.
+  [[nodiscard]] bool enter(std::size_t i, const PreparedRay& ray, float t_max, Ray& object_ray) const;
+  /// Takes what was found in instance i when it is closer, or as close in an earlier instance; returns whether it was.
+  static bool take_closer(const Hit& found, std::size_t i, Hit& hit);
+
  private:
   static void check_size(std::size_t size);
   [[nodiscard]] static Box measure(const Instance& instance);

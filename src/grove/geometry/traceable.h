@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
 #include "grove/geometry/hit.h"
 #include "grove/geometry/hit_filter.h"
 #include "grove/geometry/ray.h"
@@ -23,6 +27,14 @@ class Traceable {
 
   /// True when anything is hit with t in [ray.t_min, ray.t_max]. Adds to `*counts` when it is not null.
   [[nodiscard]] virtual bool any_hit(const Ray& ray, TraversalCounts* counts) const = 0;
+
+  /// closest_hit and any_hit of many rays: hits[i] and results[i] (1 or 0) answer rays[i]. The spans must be of equal length.
+  virtual void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest_hit(rays[i], nullptr);
+  }
+  virtual void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> results) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) results[i] = any_hit(rays[i], nullptr) ? 1 : 0;
+  }
 
   /// The closest hit, and whether there is any, among those that `filter` accepts.
   [[nodiscard]] virtual Hit closest_hit(const Ray& ray, const HitFilter& filter) const = 0;

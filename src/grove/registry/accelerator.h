@@ -74,6 +74,9 @@ class Accelerator : public Traceable {
   /// Any hits: occluded[i] becomes 1 where something is hit within [t_min, t_max] of rays[i], else 0. Otherwise as `intersect`.
   virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, std::span<TraversalCounts> counts = {}) const = 0;
 
+  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const final { intersect(rays, hits); }
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> results) const final { occluded(rays, results); }
+
   /// The closest hit as closest_hit finds it, and in `record` each step of the way there; what it held is lost. Several times slower. The walk of
   /// `fast` that is recorded is the plain one: its kernels find the same and may step through a node more or less.
   [[nodiscard]] virtual Hit record_steps(const Ray& ray, TraversalRecord& record) const = 0;

@@ -1,4 +1,6 @@
+#include <concepts>
 #include <cstdlib>
+#include <type_traits>
 #include <utility>
 
 #include "grove/base/check.h"
@@ -10,6 +12,7 @@
 #include "grove/registry/hierarchy_accelerator.h"
 #include "grove/registry/update_by_rebuilding.h"
 #include "grove/traverse/fast_traversal.h"
+#include "grove/traverse/instance_batch.h"
 #include "grove/traverse/simd/fast_batch.h"
 #include "grove/traverse/simd/fast_single.h"
 #include "grove/traverse/wide_traversal.h"
@@ -116,11 +119,39 @@ std::unique_ptr<Accelerator> build_over_mesh(const Spec& spec, std::shared_ptr<c
                                                                                   count<Bvh>, view, measure, update);
 }
 
-// Other primitives are tested one at a time, by the walk that all wide hierarchies share.
+// Other primitives are tested one at a time, by the walk that all wide hierarchies share; but batches of rays at instances are handed down as batches.
+struct FastTop : WideBvh<8> {};
+
+using FastTopStructure = TraceableHierarchy<FastTop, InstanceSet>;
+
+void trace_closest(const FastTopStructure& structure, const InstanceSet& instances, std::span<const Ray> rays, std::span<Hit> hits,
+                   std::span<TraversalCounts> counts) {
+  if (counts.empty()) return InstanceBatch(structure.bvh, instances).trace_closest(rays, hits);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    counts[i] = {};
+    hits[i] = {};
+    if (!rays[i].is_traceable()) continue;
+    hits[i].t = rays[i].t_max;
+    Counter counter(counts[i]);
+    trace_closest(structure, instances, rays[i], hits[i], counter);
+    if (!hits[i]) hits[i] = {};
+  }
+}
+void trace_any(const FastTopStructure& structure, const InstanceSet& instances, std::span<const Ray> rays, std::span<std::uint8_t> results,
+               std::span<TraversalCounts> counts) {
+  if (counts.empty()) return InstanceBatch(structure.bvh, instances).trace_any(rays, results);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    counts[i] = {};
+    Counter counter(counts[i]);
+    results[i] = rays[i].is_traceable() && trace_any(structure, instances, rays[i], counter) ? 1 : 0;
+  }
+}
+
 template <Geometry G>
 std::unique_ptr<Accelerator> build_over_others(const Spec& spec, std::shared_ptr<const G> geometry) {
-  return make_hierarchy_accelerator<WideBvh<8>>(spec, std::move(geometry),
-                                                [quality = spec.value("quality")](const G& set) { return build_wide(set, quality); });
+  using Hierarchy = std::conditional_t<std::same_as<G, InstanceSet>, FastTop, WideBvh<8>>;
+  return make_hierarchy_accelerator<Hierarchy>(
+      spec, std::move(geometry), [quality = spec.value("quality")](const G& set) { return Hierarchy{build_wide(set, quality)}; });
 }
 
 }  // namespace
