@@ -10,13 +10,17 @@
 #include <optional>
 
 #include "checkpoint.h"
+#include "frame_names.h"
+#include "frame_options.h"
 #include "grove/base/error.h"
 #include "grove/base/output_file.h"
 #include "grove/lab/structure_report.h"
 #include "grove/lab/text_table.h"
+#include "grove/render/view.h"
 #include "picture_files.h"
 #include "picture_part_options.h"
 #include "progress_bar.h"
+#include "render_frames.h"
 #include "sampling_options.h"
 #include "sampling_report.h"
 #include "session.h"
@@ -42,7 +46,21 @@ struct RenderOptions : CommonOptions {
   double checkpoint_interval = 60.0;
   bool restarts = false;
   bool asks_single_rays = false;
+  FrameOptions frames;
+  FramePlan plan;
 };
+
+// A sequence has its own files, one a frame; what makes parts of one picture does not go with it.
+void check_frames(const RenderOptions& options) {
+  if (!options.checkpoint.empty())
+    throw UsageError("--checkpoint: saves one picture, not frames; leave it out, and go on after an interruption with --resume");
+  if (options.frames.shutter <= 0.0) return;
+  if (options.samples)
+    throw UsageError("--samples: does not go with --shutter, which spreads the samples over time; render parts with --tile");
+  if (options.sampling.noise || options.sampling.time_limit)
+    throw UsageError("--shutter: spreads a number of samples over time; give it by --spp, without --noise and --time-limit");
+  if (has_film(options.pictures)) throw UsageError("-o: a .film cannot hold a picture with --shutter; write .exr instead");
+}
 
 // Whatever can be found wrong before the scene is read.
 void check_command(RenderOptions& options) {
@@ -51,7 +69,13 @@ void check_command(RenderOptions& options) {
   if (options.asks_single_rays) options.settings.ray_calls = RayCalls::single;
   if (options.tile) parse_tile(*options.tile, options.settings.part);
   if (options.samples) parse_samples(*options.samples, options.settings.samples_per_pixel, options.settings.part);
-  check_pictures(options.pictures);
+  options.plan = plan_frames(options.frames, options.settings.camera, options.pictures);
+  std::vector<std::string> first;
+  first.reserve(options.pictures.size());
+  for (const std::string& picture : options.pictures) first.push_back(frame_name(picture, options.plan.range.first));
+  check_pictures(first);
+  if (options.plan.is_sequence) check_frames(options);
+  if (!options.plan.is_sequence) options.pictures = std::move(first);
   for (const std::string& picture : options.pictures) {
     const std::filesystem::path path = std::filesystem::path(picture).lexically_normal();
     if (path != options.checkpoint.lexically_normal() || has_film({picture})) continue;
@@ -85,13 +109,35 @@ void write_figures(const RenderOptions& options, const RenderResult& result, con
   write_text_file(options.json, json.dump(2) + "\n");
 }
 
+int run_frames(const RenderOptions& options, Interrupts& interrupts, const Console& console) {
+  const auto write = [&](const std::vector<std::string>& files, const RenderResult& result, const RenderSettings& settings,
+                         const Scene& scene, const SceneAccelerator& accelerator) {
+    FilmHeader header;
+    if (has_film(files)) header = film_header(options.scene, scene, accelerator, settings);
+    write_pictures(files, result, options.display, header, Console(true));
+  };
+  return render_frames({options, options.frames, options.plan, options.pictures, options.settings, options.integrator, write}, interrupts,
+                       console);
+}
+
+// The scene as it is read, or at the time that is asked for; a viewpoint goes into the settings.
+Scene load_for_picture(RenderOptions& options, const Console& console) {
+  Scene scene = options.plan.is_posed ? load_posed(options, options.frames, options.plan, console) : load(options.scene, console);
+  if (!options.plan.viewpoint) return scene;
+  const View view = choose_view(scene, options.settings);
+  options.settings.viewpoint =
+      camera_at(*options.plan.viewpoint, scene.bounds(), static_cast<float>(view.width) / static_cast<float>(view.height));
+  return scene;
+}
+
 int run(RenderOptions& options, Interrupts& interrupts) {
   const Console console(options.quiet);
   const std::string spec = canonical_spec(options.structure);
   check_command(options);
+  if (options.plan.is_sequence) return run_frames(options, interrupts, console);
   Checkpoint checkpoint(options.checkpoint, options.restarts, options.checkpoint_interval);
 
-  const Scene scene = load(options.scene, console);
+  const Scene scene = load_for_picture(options, console);
   const BuiltStructure built = build_structure(scene, spec, console);
   FilmHeader header;
   if (checkpoint.is_on() || has_film(options.pictures)) header = film_header(options.scene, scene, built.accelerator, options.settings);
@@ -146,7 +192,9 @@ Verb add_render(CLI::App& program) {
                ->capture_default_str(),
            std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max());
   add_threads(verb, *options);
-  verb.add_option("--camera", settings.camera, "Name of a camera of the scene (default: its first, else a view of everything)")
+  verb.add_option("--camera", settings.camera,
+                  "Name of a camera of the scene (default: its first, else a view of everything), or orbit, which turns round the scene in "
+                  "--frames")
       ->type_name("NAME");
   verb.add_option("--integrator", options->integrator, "What pixels show: path, ao, normal, depth or cost")
       ->type_name("NAME")
@@ -175,6 +223,7 @@ Verb add_render(CLI::App& program) {
                ->needs(checkpoint),
            0.1, 1e6);
   verb.add_flag("--restart", options->restarts, "Do not go on from the checkpoint file, but replace it")->needs(checkpoint);
+  add_frame_options(verb, options->frames);
   add_json(verb, *options, "the figures");
   add_quiet(verb, *options);
   verb.footer(
@@ -185,6 +234,7 @@ Verb add_render(CLI::App& program) {
       "  grove render scene.glb -o scene.exr --spp 4096 --checkpoint scene.film\n"
       "  grove render scene.glb -o scene.png --noise 0.02 --time-limit 600\n"
       "  grove render scene.glb -o part2.film --tile 2/4\n"
+      "  grove render scene.glb -o frame.%04d.png --frames 0:120 --fps 30 --spp 16\n"
       "  grove render builtin:sphereflake -o cost.png --integrator cost --structure bvh --spp 4");
   return {&verb, [options](Interrupts& interrupts) { return with_threads(options->threads, [&] { return run(*options, interrupts); }); }};
 }

@@ -51,6 +51,8 @@ struct RenderSettings {
   LightSampling lights = LightSampling::hierarchy;
   /// A camera's name; empty takes the scene's first or, when it has none, a view of the whole scene.
   std::string camera;
+  /// In place of any camera of the scene.
+  std::optional<Camera> viewpoint;
   /// World units; 0 takes a tenth of the diagonal of the scene's bounds.
   float ao_distance = 0.0F;
   /// Upper limit on one sample's indirect radiance (in any channel), against fireflies; biases the image. 0 is off.
