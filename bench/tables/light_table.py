@@ -2,8 +2,8 @@
 """Noise and time of the ways to choose one of many lights, as a Markdown table.
 
 For each number of lanterns in builtin:lanterns, each way of `grove render --lights` renders the same few samples, and then as many as fit
-into the processor time that one lantern took. Light is scattered once. Errors are root mean square errors of the luminance over its mean, against
-a picture of another seed with many more samples; times are processor times of all threads, of rendering and what precedes it. Lanterns are
+into the processor time that one lantern took. Light is scattered once. Errors are root mean squares over the pixels of the error of the luminance
+over the luminance (at least 0.01), against a picture of another seed with many more samples; times are processor times of all threads, of rendering and what precedes it. Lanterns are
 without area, since the edges of those that are seen would have more noise than what they light.
 
 usage: light_table.py GROVE [--kind points|spots] [--counts N,N] [--ways NAME,NAME] [--spp N] [--reference-spp N] [--width W] [--height H]
@@ -18,6 +18,9 @@ import tempfile
 
 from film_file import luminances
 
+FLOOR = 0.01
+
+
 def render(options, lights, way, spp, seed, directory):
     film = directory / "picture.film"
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -30,7 +33,7 @@ def render(options, lights, way, spp, seed, directory):
 
 
 def error(values, reference):
-    return math.sqrt(sum((a - b) ** 2 for a, b in zip(values, reference)) * len(reference)) / sum(reference)
+    return math.sqrt(sum(((a - b) / max(b, FLOOR)) ** 2 for a, b in zip(values, reference)) / len(reference))
 
 
 def main():

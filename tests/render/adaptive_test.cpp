@@ -5,7 +5,9 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <stop_token>
+#include <utility>
 
 #include "grove/base/error.h"
 #include "grove/render/adaptive/noise.h"
@@ -151,9 +153,10 @@ TEST_F(AdaptivePicture, IsThatOfItsTiles) {
 
 TEST_F(AdaptivePicture, GoesOnAsIfItHadNotBeenInterrupted) {
   const RenderResult whole = render_whole();
-  RenderCheckpoints checkpoints;
   int interruptions = 0;
-  for (;;) {
+  std::optional<RenderResult> earlier;
+  for (bool is_finished = false; !is_finished; ++interruptions) {
+    ASSERT_LT(interruptions, 100);
     std::stop_source stop;
     ProgressReporter progress;
     progress.stop = stop.get_token();
@@ -161,15 +164,12 @@ TEST_F(AdaptivePicture, GoesOnAsIfItHadNotBeenInterrupted) {
     progress.report = [&](std::uint64_t done, std::uint64_t /*total*/) {
       if (done > 4000) stop.request_stop();
     };
-    RenderResult result = render(scene_, accelerator_, settings_, progress, std::move(checkpoints));
-    if (!result.interrupted) {
-      EXPECT_TRUE(testing::same_bits(whole.film, result.film));
-      break;
-    }
-    ++interruptions;
-    checkpoints.earlier = std::move(result);
-    ASSERT_LT(interruptions, 100);
+    RenderCheckpoints checkpoints;
+    checkpoints.earlier = std::exchange(earlier, std::nullopt);
+    earlier = render(scene_, accelerator_, settings_, progress, std::move(checkpoints));
+    is_finished = !earlier->interrupted;
   }
+  EXPECT_TRUE(testing::same_bits(whole.film, earlier->film));
   EXPECT_GT(interruptions, 2);
 }
 
