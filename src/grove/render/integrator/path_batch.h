@@ -12,7 +12,7 @@ namespace grove {
 
 /// Traces many paths together, vertex by vertex: all rays to the next surfaces in one call of the structure, all rays to lights in another (Laine, Karras,
 /// Aila 2013, "Megakernels Considered Harmful: Wavefront Path Tracing on GPUs"; here for the sake of structures that keep many rays in flight). For one
-/// thread; it keeps its memory from call to call: 133 bytes for each path of the largest batch.
+/// thread; it keeps its memory from call to call: 149 bytes for each path of the largest batch.
 class PathBatch {
  public:
   PathBatch(const PreparedScene& world, const PathSettings& settings) : world_(&world), settings_(settings), tracer_(world) {}
