@@ -5,6 +5,13 @@
 #include "grove/base/check.h"
 
 namespace grove {
+namespace {
+
+// How many hits ahead of the one that is shaded memory is asked for what they lie on.
+constexpr std::size_t kPrimitiveAhead = 8;
+constexpr std::size_t kCornersAhead = 4;
+
+}  // namespace
 
 void PathBatch::trace(std::span<Ray> camera_rays, std::span<const Sampler> samplers, std::span<Film::Sample> samples) {
   GROVE_CHECK(camera_rays.size() == samplers.size() && camera_rays.size() == samples.size());
@@ -26,12 +33,18 @@ void PathBatch::trace(std::span<Ray> camera_rays, std::span<const Sampler> sampl
   }
 }
 
+void PathBatch::prefetch(std::size_t i, std::size_t count) const {
+  if (i + kPrimitiveAhead < count && hits_[i + kPrimitiveAhead]) world_->surfaces.prefetch_primitive(hits_[i + kPrimitiveAhead]);
+  if (i + kCornersAhead < count && hits_[i + kCornersAhead]) world_->surfaces.prefetch_corners(hits_[i + kCornersAhead]);
+}
+
 std::size_t PathBatch::shade(std::uint32_t vertex, std::span<Ray> rays, std::span<Film::Sample> samples) {
   shadow_rays_.clear();
   light_.clear();
   std::size_t left = 0;
   ShadowRay shadow;
   for (std::size_t i = 0; i < rays.size(); ++i) {
+    prefetch(i, rays.size());
     PathState& path = paths_[i];
     Film::Sample& sample = samples[path.id];
     if (!hits_[i]) {

@@ -32,6 +32,8 @@ class PathBatch {
     std::uint32_t path;
   };
 
+  // Asks memory for what hits a little behind the i-th of the first `count` lie on.
+  void prefetch(std::size_t i, std::size_t count) const;
   // Leaves the paths that go on, and their rays, in the first places, in the same order; returns how many.
   std::size_t shade(std::uint32_t vertex, std::span<Ray> rays, std::span<Film::Sample> samples);
 

@@ -94,8 +94,7 @@ SurfaceTable::SurfaceTable(const Scene& scene) {
 }
 
 std::uint32_t SurfaceTable::material_of(const Hit& hit) const {
-  const InstanceView& instance = instances_[hit.instance == kInvalidId ? 0 : hit.instance];
-  return parts_[instance.first_part + hit.geometry].part->material;
+  return part_of(hit).part->material;
 }
 
 SurfacePoint SurfaceTable::at(const Ray& ray, const Hit& hit) const {
@@ -109,6 +108,24 @@ SurfacePoint SurfaceTable::at(const Ray& ray, const Hit& hit) const {
       instance.is_identity ? world : glm::dvec3(glm::dmat4(instance.transform->inverse_matrix()) * glm::dvec4(world, 1.0));
   const auto normal = Vec3(glm::normalize(local - glm::dvec3(sphere.centre)));
   return sphere_point(instance, part, hit.primitive, normal, {hit.u, hit.v});
+}
+
+void SurfaceTable::prefetch_primitive(const Hit& hit) const {
+  const PartView& part = part_of(hit);
+  if (part.mesh != nullptr) __builtin_prefetch(&part.mesh->triangles()[part.first_primitive + hit.primitive]);
+}
+
+void SurfaceTable::prefetch_corners(const Hit& hit) const {
+  const PartView& part = part_of(hit);
+  if (part.mesh == nullptr) return;
+  const Triangle triangle = part.mesh->triangles()[part.first_primitive + hit.primitive];
+  const Part& data = *part.part;
+  for (int corner = 0; corner < 3; ++corner) {
+    __builtin_prefetch(&part.mesh->vertices()[triangle[corner]]);
+    const std::uint32_t in_part = triangle[corner] - part.first_vertex;
+    if (!data.normals.empty()) __builtin_prefetch(&data.normals[in_part]);
+    if (!data.uvs.empty()) __builtin_prefetch(&data.uvs[in_part]);
+  }
 }
 
 SurfacePoint SurfaceTable::on_triangle(std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive, const Vec2& uv) const {

@@ -16,6 +16,10 @@ class SurfaceTable {
   /// The point that `ray` met. O(1).
   [[nodiscard]] SurfacePoint at(const Ray& ray, const Hit& hit) const;
 
+  /// Asks memory for what `at` will read of a hit, in two steps that are to lie some work apart: the second reads what the first asked for.
+  void prefetch_primitive(const Hit& hit) const;
+  void prefetch_corners(const Hit& hit) const;
+
   /// The point of a triangle at barycentrics (u, v), without a ray.
   [[nodiscard]] SurfacePoint on_triangle(std::uint32_t instance, std::uint32_t geometry, std::uint32_t primitive, const Vec2& uv) const;
   /// The point of a sphere whose object-space normal is `normal`.
@@ -39,6 +43,9 @@ class SurfaceTable {
     std::uint32_t first_vertex;
   };
 
+  [[nodiscard]] const PartView& part_of(const Hit& hit) const {
+    return parts_[instances_[hit.instance == kInvalidId ? 0 : hit.instance].first_part + hit.geometry];
+  }
   [[nodiscard]] SurfacePoint triangle_point(const InstanceView& instance, const PartView& part, std::uint32_t primitive,
                                             const Vec2& barycentric) const;
   [[nodiscard]] SurfacePoint sphere_point(const InstanceView& instance, const PartView& part, std::uint32_t primitive, const Vec3& normal,
