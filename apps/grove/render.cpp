@@ -10,13 +10,18 @@
 #include <optional>
 
 #include "checkpoint.h"
+#include "denoise_options.h"
+#include "display_options.h"
 #include "grove/base/error.h"
 #include "grove/base/output_file.h"
 #include "grove/lab/structure_report.h"
 #include "grove/lab/text_table.h"
+#include "grove/render/view.h"
+#include "layer_options.h"
 #include "picture_files.h"
 #include "picture_part_options.h"
 #include "progress_bar.h"
+#include "reference_picture.h"
 #include "session.h"
 #include "verbs.h"
 
@@ -31,7 +36,10 @@ struct RenderOptions : CommonOptions {
   std::vector<std::string> pictures;
   std::string integrator = "path";
   RenderSettings settings;
-  DisplaySettings display;
+  DisplayOptions display;
+  LayerOptions layers;
+  DenoiseOptions denoise;
+  ReferencePicture reference;
   std::optional<std::string> tile;
   std::optional<std::string> samples;
   std::filesystem::path checkpoint;
@@ -45,6 +53,10 @@ void check_command(RenderOptions& options) {
   if (options.tile) parse_tile(*options.tile, options.settings.part);
   if (options.samples) parse_samples(*options.samples, options.settings.samples_per_pixel, options.settings.part);
   check_pictures(options.pictures);
+  parse_display(options.display);
+  parse_layers(options.layers);
+  if (has_exr(options.pictures)) ask_for_layers(options.layers, options.settings.gathering);
+  parse_denoise(options.denoise, options.settings);
   for (const std::string& picture : options.pictures) {
     const std::filesystem::path path = std::filesystem::path(picture).lexically_normal();
     if (path != options.checkpoint.lexically_normal() || has_film({picture})) continue;
@@ -55,7 +67,7 @@ void check_command(RenderOptions& options) {
 }
 
 void write_figures(const RenderOptions& options, const RenderResult& result, const StructureStatistics& statistics, const Scene& scene,
-                   const std::string& spec) {
+                   const std::string& spec, double denoise_seconds) {
   nlohmann::ordered_json json = structure_json(spec, statistics, arena_threads());
   json["scene"] = options.scene;
   json["load_seconds"] = scene.load_seconds;
@@ -69,11 +81,14 @@ void write_figures(const RenderOptions& options, const RenderResult& result, con
   json["rays"] = result.rays_traced;
   json["render_seconds"] = result.seconds;
   json["mrays_per_s"] = result.seconds > 0.0 ? 1e-6 * static_cast<double>(result.rays_traced) / result.seconds : 0.0;
+  json["denoise"] = options.denoise.text;
+  json["denoise_seconds"] = denoise_seconds;
   json["completed_fraction"] = result.completed_fraction;
   json["interrupted"] = result.interrupted;
   json["tiles"] = {{"share", result.part.share}, {"of", result.part.share_count}};
   json["samples"] = {{"first", result.part.first_sample}, {"end", result.part.end_sample}};
   json["images"] = options.pictures;
+  if (auto comparison = options.reference.figures(); !comparison.is_null()) json["comparison"] = std::move(comparison);
   write_text_file(options.json, json.dump(2) + "\n");
 }
 
@@ -90,6 +105,8 @@ int run(RenderOptions& options, Interrupts& interrupts) {
   Checkpoint checkpoint(options.checkpoint, options.restarts, options.checkpoint_interval);
 
   const Scene scene = load(options.scene, console);
+  const View view = choose_view(scene, options.settings);
+  options.reference.read(view.width, view.height);
   const BuiltStructure built = build_structure(scene, spec, console);
   FilmHeader header;
   if (checkpoint.is_on() || has_film(options.pictures)) header = film_header(options.scene, scene, built.accelerator, options.settings);
@@ -105,8 +122,10 @@ int run(RenderOptions& options, Interrupts& interrupts) {
                           samples_text(options, result.part), with_separators(result.rays_traced), duration(result.seconds),
                           short_number(1e-6 * static_cast<double>(result.rays_traced) / result.seconds)));
   checkpoint.finish(result, console);
-  write_pictures(options.pictures, result, options.display, header, console);
-  if (!options.json.empty()) write_figures(options, result, built.statistics, scene, spec);
+  const double denoise_seconds = denoise_still(options.denoise, result, console);
+  write_pictures(options.pictures, result, {.display = options.display.settings, .layers = options.layers.layers}, header, console);
+  options.reference.compare(result.colours(), options.display.settings, console);
+  if (!options.json.empty()) write_figures(options, result, built.statistics, scene, spec, denoise_seconds);
   checkpoint.rethrow_failure();
   if (!result.interrupted) return 0;
   fmt::print(stderr, "grove render: interrupted; wrote what was finished, {:.1f} % of the samples{}\n", 100.0 * result.completed_fraction,
@@ -148,10 +167,10 @@ Verb add_render(CLI::App& program) {
   verb.add_option("--integrator", options->integrator, "What pixels show: path, ao, normal, depth or cost")
       ->type_name("NAME")
       ->capture_default_str();
-  in_range(verb.add_option("--exposure", options->display.exposure, "Stops by which a path-traced .png is brightened")
-               ->type_name("STOPS")
-               ->capture_default_str(),
-           -64.0, 64.0);
+  add_display(verb, options->display);
+  add_layers(verb, options->layers);
+  add_denoise(verb, options->denoise);
+  options->reference.add_option(verb);
   verb.add_option("--tile", options->tile,
                   "Render the i-th of N shares of the picture's tiles, 1/N to N/N; 'grove merge' puts films together")
       ->type_name("i/N");
@@ -178,6 +197,7 @@ Verb add_render(CLI::App& program) {
       "  grove render scene.glb -o scene.exr -o scene.png --spp 256 --width 1920 --height 1080\n"
       "  grove render scene.glb -o scene.exr --spp 4096 --checkpoint scene.film\n"
       "  grove render scene.glb -o part2.film --tile 2/4\n"
+      "  grove render scene.glb -o clean.png --spp 8 --denoise spatial --compare scene.exr\n"
       "  grove render builtin:sphereflake -o cost.png --integrator cost --structure bvh --spp 4");
   return {&verb, [options](Interrupts& interrupts) { return with_threads(options->threads, [&] { return run(*options, interrupts); }); }};
 }

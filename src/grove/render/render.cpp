@@ -100,8 +100,9 @@ class Pause {
 // The work that all threads share.
 class RenderJob {
  public:
-  RenderJob(const PreparedScene& world, const CameraRays& camera, const RenderSettings& settings, std::uint32_t first_sample, Film& film)
-      : world_(world), camera_(camera), settings_(settings), film_(film), first_sample_(first_sample) {
+  RenderJob(const PreparedScene& world, const CameraRays& camera, const RenderSettings& settings, std::uint32_t first_sample, Film& film,
+            RadianceMoments* moments)
+      : world_(world), camera_(camera), settings_(settings), film_(film), moments_(moments), first_sample_(first_sample) {
     ao_distance_ = settings.ao_distance;
     if (!(ao_distance_ > 0.0F)) ao_distance_ = 0.1F * glm::length(world.scene.bounds().extent());
     if (!(ao_distance_ > 0.0F)) ao_distance_ = std::numeric_limits<float>::infinity();
@@ -117,7 +118,7 @@ class RenderJob {
         if (first >= end) continue;
         // Not only between tiles: one may take too long to wait for.
         if (pause.is_wanted()) break;
-        for (std::uint32_t s = first; s < end; ++s) film_.add(x, y, sample(x, y, first_sample_ + s, rays));
+        for (std::uint32_t s = first; s < end; ++s) take(x, y, sample(x, y, first_sample_ + s, rays));
         taken += end - first;
         pause.note_work();
       }
@@ -129,6 +130,10 @@ class RenderJob {
   [[nodiscard]] std::uint64_t rays_traced() const { return rays_traced_; }
 
  private:
+  void take(std::uint32_t x, std::uint32_t y, const Film::Sample& sample) {
+    if (film_.add(x, y, sample) && moments_ != nullptr) moments_->add(x, y, luminance(sample.radiance));
+  }
+
   Film::Sample sample(std::uint32_t x, std::uint32_t y, std::uint32_t number, std::uint64_t& rays) const {
     const Sampler sampler(settings_.seed, x, y, number);
     const Ray ray = film_ray(camera_, x, y, sampler);
@@ -160,6 +165,7 @@ class RenderJob {
   const CameraRays& camera_;
   const RenderSettings& settings_;
   Film& film_;
+  RadianceMoments* moments_;  // or null
   std::uint32_t first_sample_;
   float ao_distance_ = 0.0F;
   std::atomic<std::uint64_t> rays_traced_{0};
@@ -203,7 +209,8 @@ RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, con
     result.warnings.emplace_back("the scene has no light; lit by a default sky");
   }
 
-  RenderJob job(world, camera_rays, settings, result.part.first_sample, result.film);
+  if (settings.gathering.moments && !result.moments) result.moments.emplace(view.width, view.height);
+  RenderJob job(world, camera_rays, settings, result.part.first_sample, result.film, result.moments ? &*result.moments : nullptr);
   const Progression earlier = progression(result.film, result.part, grid);
   const std::uint32_t samples = result.part.samples_per_pixel();
   const std::uint64_t total = result.part.pixel_count(grid) * samples;
@@ -238,6 +245,10 @@ RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, con
     if (!pause.is_wanted()) end = std::min(samples, end_of_next_pass(end));
   }
 
+  if (settings.gathering.first_hits) {
+    result.first_hits =
+        gather_first_hits(world, camera_rays, result.film, {settings.seed, result.part.first_sample}, settings.gathering.earlier);
+  }
   take_stock();
   if (result.dropped_samples > 0) {
     result.warnings.push_back(std::to_string(result.dropped_samples) + " samples were not a number, infinite or negative, and left out");
