@@ -25,6 +25,9 @@ class CameraRays {
   /// The other way, as a pinhole camera sees it: where a point of the world (w = 1) or what lies infinitely far in a direction (w = 0) is. O(1).
   [[nodiscard]] FilmPlace place(const Vec4& in_world) const;
 
+  /// Whether both have the same rays.
+  friend bool operator==(const CameraRays&, const CameraRays&) = default;
+
  private:
   Mat4 camera_to_world_;
   Mat4 world_to_camera_;

@@ -27,32 +27,34 @@ Denoise denoise_from_name(std::string_view name) {
   return static_cast<Denoise>(found - kNames.begin());
 }
 
-ColourImage denoise(const RenderResult& result, const FilterSettings& settings) {
+TakenApart take_apart(const RenderResult& result) {
   GROVE_CHECK(result.first_hits && result.moments);
   const Film& film = result.film;
-  const Guides guides = Guides::of(film, *result.first_hits);
-  ColourImage image = mean_colours(film);
-  const std::size_t count = image.pixels.size();
-  Illumination light(count);
+  const std::size_t count = std::size_t{film.width()} * film.height();
+  TakenApart parts{Guides::of(film, *result.first_hits), Illumination(count), std::vector<Vec3>(count)};
   std::vector<MeasuredNoise> measured(count);
   parallel_for(film.height(), 4, [&](std::size_t row) {
     const auto y = static_cast<std::uint32_t>(row);
     for (std::uint32_t x = 0; x < film.width(); ++x) {
       const std::size_t i = row * film.width() + x;
-      const Vec3 by = divisor(guides.albedo[i]);
+      const Vec3 by = divisor(parts.guides.albedo[i]);
       const Vec3& emitted = result.first_hits->at(x, y).emitted;
-      light.set_colour(i, glm::max(image.pixels[i] - emitted, Vec3(0.0F)) / by);
+      parts.emitted[i] = emitted;
+      parts.light.set_colour(i, glm::max(film.mean(x, y).radiance - emitted, Vec3(0.0F)) / by);
       const float scale = 1.0F / luminance(by);
       measured[i] = {scale * scale * result.moments->variance_of_mean(x, y), result.moments->count(x, y) >= 2, emitted == Vec3(0.0F)};
     }
   });
-  estimate_noise(measured, guides, light);
-  light = filter_a_trous(std::move(light), guides, settings);
-  parallel_for(count, 4096, [&](std::size_t i) {
-    if (!guides.is_surface(i)) return;
-    const auto x = static_cast<std::uint32_t>(i % film.width());
-    const auto y = static_cast<std::uint32_t>(i / film.width());
-    image.pixels[i] = light.colour(i) * divisor(guides.albedo[i]) + result.first_hits->at(x, y).emitted;
+  estimate_noise(measured, parts.guides, parts.light);
+  return parts;
+}
+
+ColourImage denoise(const RenderResult& result, const FilterSettings& settings) {
+  TakenApart parts = take_apart(result);
+  const Illumination light = filter_a_trous(std::move(parts.light), parts.guides, settings);
+  ColourImage image = mean_colours(result.film);
+  parallel_for(image.pixels.size(), 4096, [&](std::size_t i) {
+    if (parts.guides.is_surface(i)) image.pixels[i] = light.colour(i) * divisor(parts.guides.albedo[i]) + parts.emitted[i];
   });
   return image;
 }

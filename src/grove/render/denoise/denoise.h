@@ -3,8 +3,11 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "grove/render/denoise/a_trous.h"
+#include "grove/render/denoise/guides.h"
+#include "grove/render/denoise/illumination.h"
 #include "grove/render/image/colour_image.h"
 #include "grove/render/render.h"
 
@@ -22,11 +25,20 @@ enum class Denoise : std::uint8_t {
 /// Throws UsageError that lists the names.
 [[nodiscard]] Denoise denoise_from_name(std::string_view name);
 
-/// A path-traced picture with less noise: what the first surface emits is put aside, what it reflects divided by its albedo, filtered as a_trous.h tells by how unsure it is, and put
-/// together again. Where samples
-/// leave no doubt, nothing is filtered: with more and more samples the result tends to the means of the film. `result` must hold first hits and moments
-/// (`GatheringSettings`); pixels that show no surface stay as they are. Biased, as all such filters: shadows and reflections that no guide tells of may blur. O(pixels); about 250 bytes
-/// of memory a pixel while it works; in parallel in the caller's arena, with the same result for any number of threads.
+/// What a filter works on: a picture taken apart. What the first surface emits is put aside, and what it reflects is divided by its albedo.
+struct TakenApart {
+  Guides guides;
+  Illumination light;
+  std::vector<Vec3> emitted;
+};
+
+/// Takes a path-traced picture apart. `result` must hold first hits and moments (`GatheringSettings`). O(pixels); in parallel in the caller's arena.
+[[nodiscard]] TakenApart take_apart(const RenderResult& result);
+
+/// A path-traced picture with less noise: taken apart, filtered as a_trous.h tells by how unsure it is, and put together again. Where samples leave no doubt, nothing is filtered: with more
+/// and more samples the result tends to the means of the film. Pixels that show no surface stay as they are. Biased, as all such filters: shadows and reflections that no guide tells of
+/// may blur. `result` as for `take_apart`. O(pixels); about 250 bytes of memory a pixel while it works; in parallel in the caller's arena, with the same result for any number
+/// of threads.
 [[nodiscard]] ColourImage denoise(const RenderResult& result, const FilterSettings& settings = {});
 
 }  // namespace grove

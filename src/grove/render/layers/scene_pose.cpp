@@ -15,9 +15,14 @@ bool is_same(const SphereSet::Sphere& a, const SphereSet::Sphere& b) {
   return a.centre == b.centre && a.radius == b.radius;
 }
 
+bool is_same_light(const PunctualLight& a, const PunctualLight& b) {
+  return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.intensity == b.intensity &&
+         a.inner_angle == b.inner_angle && a.outer_angle == b.outer_angle;
+}
+
 }  // namespace
 
-ScenePose::ScenePose(const Scene& scene) {
+ScenePose::ScenePose(const Scene& scene) : lights_(scene.lights) {
   shapes_.reserve(scene.objects.size());
   for (const Object& object : scene.objects) {
     if (const auto* mesh = std::get_if<std::shared_ptr<TriangleMesh>>(&object.geometry)) {
@@ -66,6 +71,7 @@ Vec3 ScenePose::position_then(const Scene& now, const Hit& hit, const Vec3& posi
 }
 
 bool ScenePose::is_pose_of(const Scene& now) const {
+  if (!std::ranges::equal(now.lights, lights_, is_same_light)) return false;
   if (now.objects.size() != shapes_.size() || now.instances.size() != instances_.size()) return false;
   for (std::size_t i = 0; i < instances_.size(); ++i) {
     if (now.instances[i].object != instances_[i].object) return false;

@@ -20,7 +20,7 @@ class ScenePose {
   /// a mesh of another number of vertices) has not moved. O(1).
   [[nodiscard]] Vec3 position_then(const Scene& now, const Hit& hit, const Vec3& position) const;
 
-  /// Whether nothing of `now` is elsewhere than here. Compares all vertices.
+  /// Whether nothing of `now`, punctual lights included, is elsewhere than here. Compares all vertices.
   [[nodiscard]] bool is_pose_of(const Scene& now) const;
 
  private:
@@ -33,6 +33,7 @@ class ScenePose {
 
   std::vector<Shape> shapes_;  // of the objects
   std::vector<PlacedObject> instances_;
+  std::vector<PunctualLight> lights_;
 };
 
 }  // namespace grove
