@@ -8,6 +8,7 @@
 #include "grove/base/error.h"
 #include "grove/base/parallel.h"
 #include "grove/render/bsdf/bsdf_types.h"
+#include "grove/render/denoise/fireflies.h"
 #include "grove/render/denoise/noise_estimate.h"
 
 namespace grove {
@@ -45,6 +46,7 @@ TakenApart take_apart(const RenderResult& result) {
       measured[i] = {scale * scale * result.moments->variance_of_mean(x, y), result.moments->count(x, y) >= 2, emitted == Vec3(0.0F)};
     }
   });
+  limit_fireflies(measured, parts.guides, parts.light);
   estimate_noise(measured, parts.guides, parts.light);
   return parts;
 }

@@ -1,10 +1,10 @@
 #include "grove/render/denoise/noise_estimate.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "grove/base/parallel.h"
 #include "grove/render/bsdf/bsdf_types.h"
+#include "grove/render/denoise/same_surface.h"
 
 namespace grove {
 namespace {
@@ -20,17 +20,6 @@ struct Mean {
     count += 1.0F;
   }
 };
-
-// Whether two pixels show about the same surface. Both normals are of unit length or zero.
-bool is_same_surface(const Guides& guides, std::size_t p, std::size_t q, float dx, float dy) {
-  constexpr float kLeastCosine = 0.95F;
-  constexpr float kDepthTolerance = 0.01F;
-  const float cosine =
-      guides.normal_x[p] * guides.normal_x[q] + guides.normal_y[p] * guides.normal_y[q] + guides.normal_z[p] * guides.normal_z[q];
-  if (!(cosine >= kLeastCosine)) return false;
-  const float expected = guides.slope_x[p] * dx + guides.slope_y[p] * dy;
-  return std::fabs(guides.depth[q] - guides.depth[p] - expected) <= kDepthTolerance * guides.depth[p] + std::fabs(expected);
-}
 
 }  // namespace
 
