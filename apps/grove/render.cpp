@@ -45,11 +45,13 @@ struct RenderOptions : CommonOptions {
   std::filesystem::path checkpoint;
   double checkpoint_interval = 60.0;
   bool restarts = false;
+  bool asks_single_rays = false;
 };
 
 // Whatever can be found wrong before the scene is read.
 void check_command(RenderOptions& options) {
   options.settings.integrator = integrator_from_name(options.integrator);
+  if (options.asks_single_rays) options.settings.ray_calls = RayCalls::single;
   if (options.tile) parse_tile(*options.tile, options.settings.part);
   if (options.samples) parse_samples(*options.samples, options.settings.samples_per_pixel, options.settings.part);
   check_pictures(options.pictures);
@@ -167,6 +169,8 @@ Verb add_render(CLI::App& program) {
   verb.add_option("--integrator", options->integrator, "What pixels show: path, ao, normal, depth or cost")
       ->type_name("NAME")
       ->capture_default_str();
+  verb.add_flag("--single-rays", options->asks_single_rays,
+                "Ask the structure about one ray after another instead of batches: slower, the same picture");
   add_display(verb, options->display);
   add_layers(verb, options->layers);
   add_denoise(verb, options->denoise);

@@ -23,8 +23,9 @@ TEST(Help, OfEachVerbIsComplete) {
   const TemporaryDirectory directory;
   const std::map<std::string, std::vector<std::string>> options{
       {"render",
-       {"SCENE", "--output", "--structure", "--spp", "--width", "--height", "--max-depth", "--seed", "--threads", "--camera",
-        "--integrator", "--exposure", "--checkpoint", "--checkpoint-interval", "--restart", "--tile", "--samples", "--json", "--quiet"}},
+       {"SCENE",     "--output",  "--structure",  "--spp",         "--width",    "--height",     "--max-depth",           "--seed",
+        "--threads", "--camera",  "--integrator", "--single-rays", "--exposure", "--checkpoint", "--checkpoint-interval", "--restart",
+        "--tile",    "--samples", "--json",       "--quiet"}},
       {"merge", {"FILMS", "--output", "--exposure", "--partial", "--threads", "--quiet"}},
       {"trace", {"SCENE", "--rays", "--hits", "--structure", "--query", "--threads", "--repeat", "--json", "--quiet"}},
       {"compare",

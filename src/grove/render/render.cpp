@@ -5,8 +5,11 @@
 #include <atomic>
 #include <bit>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <stop_token>
+#include <utility>
+#include <vector>
 
 #include "grove/base/error.h"
 #include "grove/base/parallel.h"
@@ -15,6 +18,7 @@
 #include "grove/render/film_ray.h"
 #include "grove/render/integrator/path.h"
 #include "grove/render/integrator/simple.h"
+#include "grove/render/sample_batch.h"
 #include "grove/render/view.h"
 
 namespace grove {
@@ -112,16 +116,29 @@ class RenderJob {
   std::uint64_t render_tile(const Tile& tile, std::uint32_t end, Pause& pause) {
     std::uint64_t rays = 0;
     std::uint64_t taken = 0;
+    std::unique_ptr<SampleBatch> batch = takes_batches() ? idle_batch() : nullptr;
+    const std::uint64_t earlier_rays = batch ? batch->rays_traced() : 0;
     for (std::uint32_t y = tile.first_y; y < tile.end_y; ++y) {
       for (std::uint32_t x = tile.first_x; x < tile.end_x; ++x) {
         const auto first = static_cast<std::uint32_t>(film_.pixel(x, y).taken());
         if (first >= end) continue;
         // Not only between tiles: one may take too long to wait for.
         if (pause.is_wanted()) break;
-        for (std::uint32_t s = first; s < end; ++s) take(x, y, sample(x, y, first_sample_ + s, rays));
+        for (std::uint32_t s = first; s < end; ++s) {
+          if (batch) {
+            batch->add(x, y, first_sample_ + s);
+          } else {
+            add_sample(film_, moments_, x, y, sample(x, y, first_sample_ + s, rays));
+          }
+        }
         taken += end - first;
         pause.note_work();
       }
+    }
+    if (batch) {
+      batch->finish();
+      rays += batch->rays_traced() - earlier_rays;
+      put_back(std::move(batch));
     }
     rays_traced_ += rays;
     return taken;
@@ -130,8 +147,26 @@ class RenderJob {
   [[nodiscard]] std::uint64_t rays_traced() const { return rays_traced_; }
 
  private:
-  void take(std::uint32_t x, std::uint32_t y, const Film::Sample& sample) {
-    if (film_.add(x, y, sample) && moments_ != nullptr) moments_->add(x, y, luminance(sample.radiance));
+  [[nodiscard]] PathSettings path_settings() const { return {settings_.max_depth, settings_.indirect_clamp}; }
+
+  [[nodiscard]] bool takes_batches() const { return settings_.ray_calls == RayCalls::batches && settings_.integrator == Integrator::path; }
+
+  // One that no other thread uses, until it is put back.
+  std::unique_ptr<SampleBatch> idle_batch() {
+    {
+      const std::lock_guard lock(batches_);
+      if (!idle_batches_.empty()) {
+        std::unique_ptr<SampleBatch> batch = std::move(idle_batches_.back());
+        idle_batches_.pop_back();
+        return batch;
+      }
+    }
+    return std::make_unique<SampleBatch>(world_, camera_, path_settings(), settings_.seed, film_, moments_);
+  }
+
+  void put_back(std::unique_ptr<SampleBatch> batch) {
+    const std::lock_guard lock(batches_);
+    idle_batches_.push_back(std::move(batch));
   }
 
   Film::Sample sample(std::uint32_t x, std::uint32_t y, std::uint32_t number, std::uint64_t& rays) const {
@@ -141,7 +176,7 @@ class RenderJob {
     Film::Sample result;
     switch (settings_.integrator) {
       case Integrator::path:
-        result = trace_path(world_, {settings_.max_depth, settings_.indirect_clamp}, ray, sampler, tracer);
+        result = trace_path(world_, path_settings(), ray, sampler, tracer);
         break;
       case Integrator::ao:
         result = trace_ambient_occlusion(world_, ao_distance_, ray, sampler, tracer);
@@ -169,6 +204,8 @@ class RenderJob {
   std::uint32_t first_sample_;
   float ao_distance_ = 0.0F;
   std::atomic<std::uint64_t> rays_traced_{0};
+  std::mutex batches_;
+  std::vector<std::unique_ptr<SampleBatch>> idle_batches_;
 };
 
 }  // namespace

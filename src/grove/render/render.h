@@ -28,6 +28,12 @@ enum class Integrator : std::uint8_t {
   cost     ///< work of the camera ray: red nodes visited, green primitives tested, blue their sum
 };
 
+/// How many rays the structure is asked about in one call. The picture is the same, bit for bit.
+enum class RayCalls : std::uint8_t {
+  batches,  ///< those of some thousand paths together, for `path`; the other integrators ask singly
+  single    ///< one after another: the reference for batches, and what follows a path through a debugger
+};
+
 /// The names of the integrators, in the order of the enumeration.
 [[nodiscard]] std::span<const std::string_view> integrator_names();
 /// Throws UsageError that lists the names.
@@ -57,6 +63,7 @@ struct RenderSettings {
   float ao_distance = 0.0F;
   /// Upper limit on one sample's indirect radiance (in any channel), against fireflies; biases the image. 0 is off.
   float indirect_clamp = 0.0F;
+  RayCalls ray_calls = RayCalls::batches;
   /// The part of the picture to make. An end_sample of 0 stands for samples_per_pixel, which it must not exceed.
   PicturePart part;
   GatheringSettings gathering;

@@ -16,7 +16,7 @@ struct SurfaceHit {
   SurfacePoint point;
 };
 
-/// Traces the rays of one camera sample through what lets light pass (alpha, interfaces), and counts them. For one thread.
+/// Traces the rays of one camera sample, one after another, through what lets light pass (alpha, interfaces), and counts them. For one thread.
 class RayTracer {
  public:
   /// Every ray is appended to `recording` where that is not null; it must outlive the tracer.
@@ -26,10 +26,7 @@ class RayTracer {
   /// The first surface along `ray` that stops it; a partly transparent one does by chance. False when there is none.
   [[nodiscard]] bool find_surface(const Ray& ray, SurfaceHit& result);
 
-  /// The part of light, in [0, 1], that comes from `sample` to `point`, which it leaves towards `sample.direction`.
-  [[nodiscard]] float transmittance(const SurfacePoint& point, const LightSample& sample);
-
-  /// The same along a ray of finite or infinite length.
+  /// The part of light, in [0, 1], that comes along a ray of finite or infinite length.
   [[nodiscard]] float transmittance(Ray ray);
 
   [[nodiscard]] std::uint64_t rays_traced() const { return rays_traced_; }

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "grove/math/vector.h"
+#include "grove/render/bsdf/bsdf_types.h"
+#include "grove/render/film.h"
 
 namespace grove {
 
@@ -53,5 +54,10 @@ class RadianceMoments {
   std::uint32_t width_ = 0;
   std::vector<Pixel> pixels_;
 };
+
+/// Adds a sample to the film and, where it was taken and there are any, to the moments.
+inline void add_sample(Film& film, RadianceMoments* moments, std::uint32_t x, std::uint32_t y, const Film::Sample& sample) {
+  if (film.add(x, y, sample) && moments != nullptr) moments->add(x, y, luminance(sample.radiance));
+}
 
 }  // namespace grove
