@@ -14,8 +14,8 @@ test: ## install what is missing, build everything and run every test
 build: ## build everything into build/release (PRESET=debug, asan, tsan or coverage for another)
 	@scripts/build $(or $(PRESET),release)
 
-bench: ## build and run the benchmarks against their contenders
-	@scripts/bench
+bench: ## build the benchmarks and run Grove beside Embree (BENCH="--quick" or other options of grove_rival_bench)
+	@scripts/bench $(BENCH)
 
 format: ## format every source with clang-format
 	@scripts/format

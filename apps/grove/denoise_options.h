@@ -1,10 +1,12 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <optional>
 #include <string>
 
 #include "console.h"
 #include "grove/render/denoise/denoise.h"
+#include "grove/render/denoise/temporal.h"
 
 namespace grove::app {
 
@@ -21,5 +23,25 @@ void parse_denoise(DenoiseOptions& options, RenderSettings& settings);
 
 /// Filters a still picture, where that is asked for; returns the seconds that it took.
 double denoise_still(const DenoiseOptions& options, RenderResult& result, const Console& console);
+
+/// Denoises frames that follow each other, and measures motion from one to the next where layers or the filter need it.
+class FrameDenoiser {
+ public:
+  explicit FrameDenoiser(const DenoiseOptions& options) : options_(&options) {}
+
+  /// Before a frame: lets its motion be measured against the frame before, and with `temporal` gives it noise of its own.
+  void prepare(RenderSettings& settings, std::uint32_t number) const;
+
+  /// After it, with the settings that it was made with: filters it, where that is asked for. Returns the seconds that it took.
+  double finish(RenderResult& frame, const RenderSettings& settings, const Scene& scene);
+
+  /// A frame was left out.
+  void skip();
+
+ private:
+  const DenoiseOptions* options_;
+  TemporalDenoiser denoiser_;
+  std::optional<EarlierFrame> earlier_;
+};
 
 }  // namespace grove::app

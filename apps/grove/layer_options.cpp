@@ -25,7 +25,6 @@ void parse_layers(LayerOptions& options) {
 void ask_for_layers(const LayerOptions& options, GatheringSettings& gathering) {
   const LayerSet& layers = options.layers;
   gathering.first_hits = gathering.first_hits || layers.has(Layer::depth) || layers.has(Layer::motion) || layers.has(Layer::id);
-  gathering.moments = gathering.moments || layers.has(Layer::variance);
 }
 
 }  // namespace grove::app

@@ -44,10 +44,12 @@ int run(MergeOptions& options) {
   result.film = std::move(merged.whole.film);
   result.integrator = integrator_from_name(fact_of(header.picture, "integrator"));
   result.part = header.part;
+  result.interrupted = !header.is_finished;
   result.rays_traced = header.rays_traced;
   result.seconds = header.seconds;
-  console.say(fmt::format("picture    {} x {} pixels, {} samples each, from {} films; {} rays in {} of work", header.width, header.height,
-                          header.samples_per_pixel, options.parts.size(), with_separators(header.rays_traced), duration(header.seconds)));
+  console.say(fmt::format("picture    {} x {} pixels, {} samples{}, from {} films; {} rays in {} of work", header.width, header.height,
+                          header.samples_per_pixel, header.noise.is_on() ? " at most" : " each", options.parts.size(),
+                          with_separators(header.rays_traced), duration(header.seconds)));
   write_pictures(options.pictures, result, {.display = options.display.settings}, header, console);
   options.reference.compare(result.colours(), options.display.settings, console);
   return 0;

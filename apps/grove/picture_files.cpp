@@ -48,12 +48,14 @@ FilmHeader film_header(const std::string& source, const Scene& scene, const Scen
   header.height = view.height;
   header.samples_per_pixel = settings.samples_per_pixel;
   header.part = settings.part;
+  header.noise = settings.noise;
   if (header.part.end_sample == 0) header.part.end_sample = settings.samples_per_pixel;
   return header;
 }
 
 FilmHeader with_result(FilmHeader header, const RenderResult& result) {
   header.part = result.part;
+  header.is_finished = !result.interrupted && !result.out_of_time;
   header.rays_traced = result.rays_traced;
   header.seconds = result.seconds;
   return header;

@@ -16,6 +16,8 @@ class ReferencePicture {
  public:
   void add_option(CLI::App& verb);
 
+  [[nodiscard]] bool is_named() const { return !file_.empty(); }
+
   /// Reads it, where one was named, before any work is done in vain. Throws InputError as `read_reference` does.
   void read(std::uint32_t width, std::uint32_t height);
 

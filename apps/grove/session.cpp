@@ -6,6 +6,7 @@
 #include "grove/lab/auto_choice.h"
 #include "grove/lab/text_table.h"
 #include "grove/scene/load.h"
+#include "grove/scene/load_animated.h"
 
 namespace grove::app {
 namespace {
@@ -27,6 +28,11 @@ std::string scene_summary(const Scene& scene) {
   return text;
 }
 
+void tell_of(const Scene& scene, const std::string& source, const Console& console) {
+  console.say(fmt::format("scene      {}: {}; read in {}", source, scene_summary(scene), duration(scene.load_seconds)));
+  for (const std::string& warning : scene.warnings) console.warn(warning);
+}
+
 }  // namespace
 
 unsigned arena_threads() {
@@ -36,8 +42,14 @@ unsigned arena_threads() {
 Scene load(const std::string& source, const Console& console) {
   console.status("reading " + source);
   Scene scene = load_scene(source);
-  console.say(fmt::format("scene      {}: {}; read in {}", source, scene_summary(scene), duration(scene.load_seconds)));
-  for (const std::string& warning : scene.warnings) console.warn(warning);
+  tell_of(scene, source, console);
+  return scene;
+}
+
+AnimatedScene load_animated(const std::string& source, const std::string& animation, const Console& console) {
+  console.status("reading " + source);
+  AnimatedScene scene = load_animated_scene(source, animation);
+  tell_of(scene.scene(), source, console);
   return scene;
 }
 

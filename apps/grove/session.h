@@ -8,6 +8,7 @@
 
 #include "console.h"
 #include "grove/render/scene_accelerator.h"
+#include "grove/scene/animation/animated_scene.h"
 #include "grove/scene/scene.h"
 #include "options.h"
 
@@ -28,6 +29,9 @@ auto with_threads(std::optional<unsigned> threads, const Work& work) {
 
 /// Loads a scene; says what is in it, and warns of what was left out.
 [[nodiscard]] Scene load(const std::string& source, const Console& console);
+
+/// The same with one of its animations; see load_animated_scene.
+[[nodiscard]] AnimatedScene load_animated(const std::string& source, const std::string& animation, const Console& console);
 
 /// A built structure, and how long that took by the clock.
 struct BuiltStructure {

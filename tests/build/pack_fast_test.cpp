@@ -26,7 +26,7 @@ TEST(PackFast, KeepsEveryTriangleInABlockOfItsLeaf) {
   for (const std::size_t count : {0U, 1U, 2U, 4U, 5U, 100U, 20000U}) {
     const TriangleMesh mesh = testing::pebbles(count, 0.05F, count);
     const WideBvh<8> from = wide(mesh);
-    const FastBvh bvh = pack_fast(from, mesh);
+    const FastBvh bvh = pack_fast<FastBvh>(from, mesh);
     ASSERT_EQ(bvh.validate(count), "") << count;
     ASSERT_EQ(bvh.references, count);
     std::vector<std::uint32_t> ids;
@@ -50,12 +50,12 @@ TEST(PackFast, KeepsEveryTriangleInABlockOfItsLeaf) {
 }
 
 TEST(PackFast, OrdersChildrenFromFarToNear) {
-  const FastBvh bvh = pack_fast(wide(testing::pebbles(3000, 0.05F, 2)), testing::pebbles(3000, 0.05F, 2));
+  const FastBvh bvh = pack_fast<FastBvh>(wide(testing::pebbles(3000, 0.05F, 2)), testing::pebbles(3000, 0.05F, 2));
   for (const FastNode& node : bvh.nodes()) {
     for (unsigned octant = 0; octant < 8; ++octant) {
       float last = std::numeric_limits<float>::infinity();
       for (int k = 0; k < FastNode::kWidth; ++k) {
-        const auto place = static_cast<int>(node.order[octant] >> (3 * k) & 7U);
+        const auto place = static_cast<int>(node.order_for(octant) >> (3 * k) & 7U);
         if (!node.has_child(place)) continue;
         const Box box = node.child_box(place);
         float along = 0.0F;
@@ -67,12 +67,48 @@ TEST(PackFast, OrdersChildrenFromFarToNear) {
   }
 }
 
+// Boxes on a node's grid hold the boxes that they stand for, and are larger by less than a step on each side; all else is the same.
+TEST(PackFast, CompressedNodesHoldTheirChildren) {
+  for (const float size : {1e-20F, 0.05F, 1e15F}) {
+    const TriangleMesh unit = testing::pebbles(5000, 0.05F, 7);
+    std::vector<Vec3> vertices;
+    vertices.reserve(unit.vertices().size());
+    for (const Vec3& vertex : unit.vertices()) vertices.push_back(vertex * size + Vec3(size, 0.0F, -3.0F * size));
+    const TriangleMesh mesh(vertices, {unit.triangles().begin(), unit.triangles().end()});
+    const WideBvh<8> from = wide(mesh);
+    const auto full = pack_fast<FastBvh>(from, mesh);
+    const auto compressed = pack_fast<CompressedFastBvh>(from, mesh);
+    ASSERT_EQ(compressed.validate(mesh.size(), mesh.vertices()), "");
+    ASSERT_EQ(compressed.nodes().size(), full.nodes().size());
+    EXPECT_EQ(compressed.references, full.references);
+    EXPECT_LT(compressed.memory(), full.memory() / 2);
+    for (std::size_t number = 0; number < full.nodes().size(); ++number) {
+      const FastNode& whole = full.nodes()[number];
+      const CompressedNode& small = compressed.nodes()[number];
+      for (std::uint32_t octant = 0; octant < 8; ++octant) EXPECT_EQ(small.order_for(octant) & 0xffffffU, whole.order_for(octant));
+      for (int i = 0; i < FastNode::kWidth; ++i) {
+        ASSERT_EQ(small.has_child(i), whole.has_child(i));
+        EXPECT_EQ(small.child_box(i).is_empty(), !small.has_child(i));
+        if (!small.has_child(i)) continue;
+        EXPECT_EQ(small.child[i].is_leaf(), whole.child[i].is_leaf());
+        const Box box = whole.child_box(i);
+        EXPECT_TRUE(small.child_box(i).contains(box));
+        const Box loose = small.child_box(i);
+        for (int axis = 0; axis < 3; ++axis) {
+          EXPECT_LE(box.lower[axis] - loose.lower[axis], 1.01F * small.scale_along(axis));
+          EXPECT_LE(loose.upper[axis] - box.upper[axis], 1.01F * small.scale_along(axis));
+        }
+      }
+    }
+  }
+}
+
 TEST(PackFast, DoesNotDependOnTheThreads) {
   const TriangleMesh mesh = testing::pebbles(50000, 0.01F, 3);
   const WideBvh<8> from = wide(mesh);
-  const FastBvh one = testing::with_threads(1, [&] { return pack_fast(from, mesh); });
+  const FastBvh one = testing::with_threads(1, [&] { return pack_fast<FastBvh>(from, mesh); });
   for (const int threads : {2, 3, 8}) {
-    const FastBvh many = testing::with_threads(threads, [&] { return pack_fast(from, mesh); });
+    const FastBvh many = testing::with_threads(threads, [&] { return pack_fast<FastBvh>(from, mesh); });
     ASSERT_EQ(many.nodes().size(), one.nodes().size());
     ASSERT_EQ(many.blocks().size(), one.blocks().size());
     EXPECT_EQ(std::memcmp(many.nodes().data(), one.nodes().data(), one.nodes().size() * sizeof(FastNode)), 0);
@@ -88,9 +124,9 @@ TEST(PackFast, LeavesAreFullerWhereABlockTakesTheSameTime) {
   settings.arity = 8;
   settings.leaf_size = TriangleBlock::kWidth;
   settings.cost.intersection = 0.25;
-  const std::size_t one_by_one = pack_fast(widen<8>(binary, settings), mesh).blocks().size();
+  const std::size_t one_by_one = pack_fast<FastBvh>(widen<8>(binary, settings), mesh).blocks().size();
   settings.block_size = TriangleBlock::kWidth;
-  EXPECT_LT(pack_fast(widen<8>(binary, settings), mesh).blocks().size(), one_by_one);
+  EXPECT_LT(pack_fast<FastBvh>(widen<8>(binary, settings), mesh).blocks().size(), one_by_one);
 }
 
 }  // namespace

@@ -22,10 +22,17 @@ TEST(Help, OfTheProgramListsTheVerbs) {
 TEST(Help, OfEachVerbIsComplete) {
   const TemporaryDirectory directory;
   const std::map<std::string, std::vector<std::string>> options{
-      {"render",
-       {"SCENE",     "--output",  "--structure",  "--spp",         "--width",    "--height",     "--max-depth",           "--seed",
-        "--threads", "--camera",  "--integrator", "--single-rays", "--exposure", "--checkpoint", "--checkpoint-interval", "--restart",
-        "--tile",    "--samples", "--json",       "--quiet"}},
+      {"render", {"SCENE",           "--output",     "--structure",
+                  "--spp",           "--width",      "--height",
+                  "--max-depth",     "--seed",       "--threads",
+                  "--camera",        "--integrator", "--single-rays",
+                  "--exposure",      "--checkpoint", "--checkpoint-interval",
+                  "--restart",       "--tile",       "--samples",
+                  "--json",          "--quiet",      "--frames",
+                  "--fps",           "--time",       "--animation",
+                  "--loop",          "--update",     "--shutter",
+                  "--shutter-times", "--resume",     "--eye",
+                  "--look-at",       "--up",         "--fov"}},
       {"merge", {"FILMS", "--output", "--exposure", "--partial", "--threads", "--quiet"}},
       {"trace", {"SCENE", "--rays", "--hits", "--structure", "--query", "--threads", "--repeat", "--json", "--quiet"}},
       {"compare",

@@ -36,6 +36,35 @@ TEST(Render, WritesBothKindsOfImageAndTheFigures) {
   EXPECT_EQ(json.at("structure"), "bvh");
   EXPECT_GT(json.at("rays"), 24 * 16 * 2);
   EXPECT_EQ(json.at("interrupted"), false);
+  EXPECT_EQ(json.at("paths"), 24 * 16 * 2);
+  EXPECT_GT(json.at("paths_per_s"), 0.0);
+  EXPECT_GT(json.at("rays_per_s"), json.at("paths_per_s"));
+  EXPECT_EQ(json.at("samples_taken").at("most"), 2);
+}
+
+TEST(Render, StopsAtItsNoiseOrTime) {
+  const TemporaryDirectory directory;
+  const std::vector<std::string> base{"render", "builtin:cornell", "--width", "24", "--height", "16", "-o", "a.png", "--json", "a.json"};
+  const auto figures = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = base;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const CommandResult result = run_command(directory, arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("noise "));
+    return nlohmann::json::parse(read_file(directory / "a.json"));
+  };
+  const auto by_noise = figures({"--noise", "0.5", "--min-spp", "4", "--spp", "256"});
+  EXPECT_EQ(by_noise.at("samples_taken").at("least"), 4);
+  EXPECT_LT(by_noise.at("samples_taken").at("mean"), 256);
+  EXPECT_EQ(by_noise.at("completed_fraction"), 1.0);
+  EXPECT_LE(by_noise.at("noise").at("root_mean_square"), 1.0);
+  const auto by_time = figures({"--time-limit", "0.2"});
+  EXPECT_EQ(by_time.at("out_of_time"), true);
+  EXPECT_EQ(by_time.at("samples_taken").at("least"), by_time.at("samples_taken").at("most"));
+  const CommandResult wrong = run_command(directory, small_with({"-o", "a.png", "--noise", "0.1", "--samples", "0:1"}));
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("share work by --tile"));
+  EXPECT_EQ(run_command(directory, small_with({"-o", "a.png", "--lights", "magic"})).exit_code, 2);
 }
 
 TEST(Render, OneSideKeepsTheAspect) {

@@ -44,6 +44,19 @@ TEST_F(ReferenceTest, AnyBitCounts) {
   EXPECT_EQ(reference.count_mismatches(hits_), 4U);
 }
 
+TEST_F(ReferenceTest, RoundingIsToldFromBeingFarOff) {
+  Reference reference(brute_.top(), 212, ray_set("", rays_, Query::closest), 1'000'000);
+  std::size_t found = 0;
+  while (!hits_[found]) ++found;
+  hits_[found].t *= 1.0001F;
+  hits_[found].primitive ^= 1U;
+  EXPECT_EQ(reference.count_far_off(hits_), 0U);
+  hits_[found].t *= 1.01F;
+  EXPECT_EQ(reference.count_far_off(hits_), 1U);
+  hits_[found] = Hit{};
+  EXPECT_EQ(reference.count_far_off(hits_), 1U);
+}
+
 TEST_F(ReferenceTest, ASmallBudgetChecksASampleAndTheOthersAgainstTheFirst) {
   Reference reference(brute_.top(), 212, ray_set("", rays_, Query::closest), 212 * 100);
   EXPECT_EQ(reference.sampled_count(), 100U);

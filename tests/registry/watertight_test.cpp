@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "grove/base/parallel.h"
 #include "grove/base/random.h"
@@ -59,6 +60,40 @@ INSTANTIATE_TEST_SUITE_P(All, Watertight, testing::ValuesIn(representative_specs
                            for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
                            return name;
                          });
+INSTANTIATE_TEST_SUITE_P(CompressedNodes, Watertight, testing::Values("fast:nodes=compressed"),
+                         [](const auto& /*test*/) { return std::string("fast"); });
+
+// A hundred million rays, in batches, at a mesh of 1.3 million triangles; for ten minutes or so:
+// grove_registry_tests --gtest_also_run_disabled_tests --gtest_filter='*AHundredMillion*'
+class WatertightAtLength : public testing::TestWithParam<std::string_view> {};
+
+TEST_P(WatertightAtLength, DISABLED_NoneOfAHundredMillionRaysEscapes) {
+  constexpr std::size_t kBatch = 100000;
+  constexpr std::size_t kBatches = 1000;
+  const auto mesh = std::make_shared<const TriangleMesh>(closed_mesh(8, 0.05F, 92));
+  ASSERT_GT(mesh->size(), 1000000U);
+  const auto structure = build(GeometryPointer(mesh), GetParam());
+  std::vector<std::size_t> escaped(kBatches, 0);
+  parallel_chunks(kBatches, 1, [&](std::size_t batch, std::size_t /*first*/, std::size_t /*last*/) {
+    Random random(7000 + batch);
+    std::vector<Ray> rays(kBatch);
+    for (Ray& ray : rays) {
+      ray.origin = Vec3(random.next_float(-0.5F, 0.5F), random.next_float(-0.5F, 0.5F), random.next_float(-0.5F, 0.5F));
+      const Triangle& triangle = mesh->triangles()[random.next_u32(static_cast<std::uint32_t>(mesh->size()))];
+      const Vec3 a = mesh->vertices()[triangle.x];
+      const Vec3 b = mesh->vertices()[triangle.y];
+      const Vec3 targets[] = {a, a + 0.5F * (b - a), a + random.next_float() * (b - a)};
+      ray.direction = targets[random.next_u32(3)] - ray.origin;
+    }
+    std::vector<Hit> hits(kBatch);
+    structure->intersect(rays, hits, {});
+    for (const Hit& hit : hits) escaped[batch] += hit ? 0 : 1;
+  });
+  EXPECT_EQ(std::accumulate(escaped.begin(), escaped.end(), std::size_t{0}), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, WatertightAtLength, testing::Values("fast", "fast:nodes=compressed"),
+                         [](const auto& test) { return std::string(test.param.size() > 4 ? "compressed" : "full"); });
 
 // t against the same intersection in long double, for triangles from slivers to walls and rays from all around.
 TEST(TriangleDistance, IsRightToTheLastDigits) {

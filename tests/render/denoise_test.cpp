@@ -14,7 +14,6 @@ namespace {
 RenderResult noisy_render(const Scene& scene, std::uint32_t side, std::uint32_t samples) {
   RenderSettings settings = small_settings(side, samples, 3);
   settings.gathering.first_hits = true;
-  settings.gathering.moments = true;
   return render_scene(scene, settings);
 }
 
@@ -110,7 +109,6 @@ TEST(Denoise, IsTheSameForAnyThreadsAndStructure) {
   const Scene scene = mixed_scene();
   RenderSettings settings = small_settings(20, 2, 3);
   settings.gathering.first_hits = true;
-  settings.gathering.moments = true;
   EXPECT_EQ(denoise(render_scene(scene, settings, "bvh")).pixels, denoise(render_scene(scene, settings, "octree")).pixels);
 }
 

@@ -26,6 +26,8 @@ FilmHeader header_of(std::uint32_t width, std::uint32_t height) {
   header.height = height;
   header.samples_per_pixel = 16;
   header.part = {1, 2, 4, 12};
+  header.noise = {.target = 0.1F, .min_samples = 8, .floor = 0.03F};
+  header.is_finished = true;
   header.rays_traced = 1ULL << 40;
   header.seconds = 0.1;
   return header;
@@ -73,6 +75,8 @@ TEST(FilmFile, GivesBackWhatWasWritten) {
   EXPECT_EQ(saved.header.height, header.height);
   EXPECT_EQ(saved.header.samples_per_pixel, header.samples_per_pixel);
   EXPECT_EQ(saved.header.part.text(), header.part.text());
+  EXPECT_EQ(saved.header.noise, header.noise);
+  EXPECT_EQ(saved.header.is_finished, header.is_finished);
   EXPECT_EQ(saved.header.rays_traced, header.rays_traced);
   EXPECT_EQ(saved.header.seconds, header.seconds);
   EXPECT_EQ(difference(saved.header.picture, header.picture), "");
@@ -119,9 +123,9 @@ TEST(FilmFile, OtherFilesAreRefusedInAWord) {
   };
   EXPECT_THAT(message(""), HasSubstr("too short"));
   EXPECT_THAT(message(std::string(100, 'x')), HasSubstr("GROVFILM"));
-  EXPECT_THAT(message(std::string("GROVFILM\x02\0\0\0\0\0\0\0", 16) + std::string(100, ' ')), HasSubstr("version 2"));
-  EXPECT_THAT(message(std::string("GROVFILM\x01\0\0\0\xff\xff\0\0", 16) + std::string(100, ' ')), HasSubstr("header"));
-  EXPECT_THAT(message(std::string("GROVFILM\x01\0\0\0\x02\0\0\0{}", 18) + std::string(100, ' ')), HasSubstr("scene"));
+  EXPECT_THAT(message(std::string("GROVFILM\x01\0\0\0\0\0\0\0", 16) + std::string(100, ' ')), HasSubstr("version 1"));
+  EXPECT_THAT(message(std::string("GROVFILM\x02\0\0\0\xff\xff\0\0", 16) + std::string(100, ' ')), HasSubstr("header"));
+  EXPECT_THAT(message(std::string("GROVFILM\x02\0\0\0\x02\0\0\0{}", 18) + std::string(100, ' ')), HasSubstr("scene"));
   EXPECT_THAT(error_of([&] { (void)read_film(directory.path()); }), HasSubstr("no regular file"));
   EXPECT_THAT(error_of([&] { (void)read_film(directory / "missing.film"); }), HasSubstr("No such file"));
 }
@@ -140,6 +144,7 @@ TEST(FilmFile, PicturesThatCannotBeAreRefused) {
   EXPECT_THAT(message([](FilmHeader& header) { header.part.end_sample = 17; }), HasSubstr("no part of the picture"));
   EXPECT_THAT(message([](FilmHeader& header) { header.part.first_sample = 12; }), HasSubstr("no part of the picture"));
   EXPECT_THAT(message([](FilmHeader& header) { header.part.end_sample = 5; }), HasSubstr("more samples than there are"));
+  EXPECT_THAT(message([](FilmHeader& header) { header.noise.floor = -1.0F; }), HasSubstr("noise target"));
   EXPECT_THAT(message([](FilmHeader& header) { header.picture.facts[1].value = "19"; }), HasSubstr("two sizes"));
   EXPECT_THAT(message([](FilmHeader& header) { header.picture.facts[3].value = "magic"; }), HasSubstr("unknown integrator"));
 }

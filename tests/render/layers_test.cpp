@@ -23,7 +23,6 @@ constexpr std::uint32_t kSide = 16;
 RenderSettings gathering_settings(std::uint32_t samples) {
   RenderSettings settings = small_settings(kSide, samples, 1);
   settings.gathering.first_hits = true;
-  settings.gathering.moments = true;
   return settings;
 }
 
@@ -65,7 +64,7 @@ TEST(Layers, AreTheSameForAnyThreadsAndStructureAndLeaveTheFilmAlone) {
   settings.gathering = {};
   const RenderResult without = render_scene(scene, settings);
   EXPECT_TRUE(same_bits(with.film, without.film));
-  EXPECT_FALSE(without.first_hits || without.moments);
+  EXPECT_FALSE(without.first_hits);
   std::uint32_t missed = 0;
   for (std::uint32_t y = 0; y < kSide; ++y) {
     for (std::uint32_t x = 0; x < kSide; ++x) {
@@ -127,15 +126,6 @@ TEST(Layers, MotionFollowsObjects) {
   EXPECT_NE(on_sphere.instance, on_wall.instance);
   EXPECT_NEAR(on_sphere.motion.x, 0.0F, 0.05F);
   EXPECT_LT(on_sphere.motion.y, -0.8F) << "up in the world, which is less of y";
-}
-
-TEST(Moments, AreMeanAndSpread) {
-  RadianceMoments moments(1, 1);
-  EXPECT_EQ(moments.variance_of_mean(0, 0), 0.0F);
-  for (const float value : {1000.0F, 1001.0F, 1002.0F, 1005.0F}) moments.add(0, 0, value);
-  EXPECT_EQ(moments.count(0, 0), 4U);
-  EXPECT_NEAR(moments.sample_variance(0, 0), 14.0F / 3.0F, 1e-4F);
-  EXPECT_NEAR(moments.variance_of_mean(0, 0), 14.0F / 12.0F, 1e-4F);
 }
 
 TEST(Layers, StandInTheFileUnderTheirNames) {

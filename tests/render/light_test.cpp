@@ -84,7 +84,8 @@ TEST(LightTable, SamplesAndHitsAgreeOnTheDensity) {
   int compared = 0;
   for (int i = 0; i < 4000; ++i) {
     const Vec3 from(random.next_float(-1, 1), random.next_float(-1, 1), random.next_float(-1, 1));
-    const LightSample sample = lights.sample(from, random.next_float(), {random.next_float(), random.next_float()});
+    const LightSample sample =
+        lights.sample(LightReceiver(from), {random.next_float(), random.next_float()}, {random.next_float(), random.next_float()});
     if (!(sample.pdf > 0.0F)) continue;
     Ray ray;
     ray.origin = from;
@@ -97,7 +98,7 @@ TEST(LightTable, SamplesAndHitsAgreeOnTheDensity) {
     // Near the rim of a sphere the density changes faster than rounding lets a ray aim.
     if (std::fabs(glm::dot(point.geometric_normal, sample.direction)) < 0.1F) continue;
     ++compared;
-    const float pdf = lights.pdf_of_hit(from, hit, point);
+    const float pdf = lights.pdf_of_hit(LightReceiver(from), hit, point);
     ASSERT_NEAR(pdf, sample.pdf, 0.02F * sample.pdf) << "seed " << kSeed << ", draw " << i;
   }
   EXPECT_GT(compared, 2500);

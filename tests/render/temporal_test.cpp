@@ -16,7 +16,6 @@ class Sequence {
  public:
   Sequence(std::uint32_t side, std::uint32_t samples) : settings_(small_settings(side, samples, 3)) {
     settings_.gathering.first_hits = true;
-    settings_.gathering.moments = true;
   }
 
   ColourImage next(const Scene& scene) {

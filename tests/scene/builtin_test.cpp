@@ -14,8 +14,8 @@ namespace {
 
 using testing::HasSubstr;
 
-const char* const kNames[] = {"cornell",     "gears",   "mount",   "rings", "shatter", "soup",
-                              "sphereflake", "spheres", "stadium", "tree",  "twist"};
+const char* const kNames[] = {"cornell", "gears",       "lanterns", "mount",   "rings", "shatter",
+                              "soup",    "sphereflake", "spheres",  "stadium", "tree",  "twist"};
 
 std::uint64_t hash(const Scene& scene) {
   std::uint64_t h = 0;
@@ -67,6 +67,9 @@ TEST(Builtin, CountsAreAsDocumented) {
   EXPECT_EQ(count("cornell"), 32U);
   EXPECT_EQ(count("cornell?size=3&objects=spheres"), 12U * 9 + 2);
   EXPECT_EQ(count("gears?size=3&teeth=16"), 32U * 16 * 9 + 4);
+  EXPECT_EQ(count("lanterns?size=3&lights=5"), 10U * 9 + 2 + 8 * 5);
+  EXPECT_EQ(count("lanterns?size=3&lights=5&kind=points"), 10U * 9 + 2);
+  EXPECT_EQ(make_builtin_scene("lanterns?lights=5&kind=spots").lights.size(), 5U);
   EXPECT_EQ(count("shatter?size=5"), 12U * 25);
   EXPECT_EQ(count("twist?size=5"), 128U * 25 + 2);
   EXPECT_EQ(count("mount?size=20"), 804U);
@@ -140,7 +143,7 @@ TEST(Builtin, TessellatedSpheresFaceOutward) {
 
 TEST(Builtin, RefusesWhatItDoesNotKnowAndListsWhatItDoes) {
   EXPECT_THAT(usage_error_of("teapot"),
-              HasSubstr("cornell, gears, mount, rings, shatter, soup, sphereflake, spheres, stadium, tree, twist"));
+              HasSubstr("cornell, gears, lanterns, mount, rings, shatter, soup, sphereflake, spheres, stadium, tree, twist"));
   EXPECT_THAT(usage_error_of(""), HasSubstr("allowed are cornell"));
   EXPECT_THAT(usage_error_of("cornell?colour=red"), HasSubstr("unknown key 'colour'; allowed are size, triangles, primitives, objects"));
   EXPECT_THAT(usage_error_of("cornell?objects=cubes"), HasSubstr("allowed are blocks, spheres"));

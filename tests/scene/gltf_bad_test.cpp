@@ -155,15 +155,6 @@ INSTANTIATE_TEST_SUITE_P(
                                          {"values", {{"bufferView", 0}}}};
               },
               "names element 3 of 3"},
-        Fault{"joint_that_is_not_there",
-              [](GltfFile& f) {
-                primitive(f)["attributes"]["JOINTS_0"] =
-                    f.add_accessor(f.add_view(std::vector<std::uint8_t>(12, 4)), 5121, 3, "VEC4");
-                primitive(f)["attributes"]["WEIGHTS_0"] = f.add(std::vector<Vec4>(3, Vec4(0.25F)));
-                f.json["skins"] = {{{"joints", {0}}}};
-                f.json["nodes"][0]["skin"] = 0;
-              },
-              "JOINTS_0: names joint 4 of 1"},
         Fault{"draco_that_is_not",
               [](GltfFile& f) {
                 primitive(f)["extensions"] = {{"KHR_draco_mesh_compression", {{"bufferView", 0}, {"attributes", {{"POSITION", 0}}}}}};

@@ -13,11 +13,31 @@ bool is_permutation(std::uint32_t order) {
   return seen == 0xffU;
 }
 
+bool names_vertices(const TriangleBlock& /*block*/, std::size_t /*count*/) {
+  return true;
+}
+
+bool names_vertices(const IndexedBlock& block, std::size_t count) {
+  return std::all_of(&block.vertex[0][0], &block.vertex[0][0] + 3 * IndexedBlock::kWidth,
+                     [&](std::uint32_t vertex) { return vertex < count; });
+}
+
+// A box on a node's grid may reach out of the one that its parent has for it, by a step of the grid.
+Box widened(const Box& box, float looseness) {
+  return {box.lower - Vec3(looseness), box.upper + Vec3(looseness)};
+}
+
+template <typename Bvh>
 class Validation {
+  using Node = typename Bvh::Node;
+  using Block = typename Bvh::Block;
+  using Child = typename Bvh::Child;
+
  public:
-  Validation(const FastBvh& bvh, std::size_t primitive_count)
+  Validation(const Bvh& bvh, std::size_t primitive_count, std::span<const Vec3> vertices)
       : bvh_(bvh),
         primitive_count_(primitive_count),
+        vertices_(vertices),
         node_is_reached_(bvh.nodes().size(), false),
         block_is_reached_(bvh.blocks().size(), false) {}
 
@@ -37,31 +57,33 @@ class Validation {
   void check_node(std::uint32_t number, const Box& box, std::uint32_t depth) {
     if (number >= bvh_.nodes().size() || node_is_reached_[number]) return fail("node", number, "is not there, or reached twice");
     node_is_reached_[number] = true;
-    const FastNode& node = bvh_.nodes()[number];
-    for (const std::uint32_t order : node.order)
-      if (!is_permutation(order)) return fail("node", number, "has an order that is none");
-    for (int i = 0; i < FastNode::kWidth && error_.empty(); ++i) {
+    const Node& node = bvh_.nodes()[number];
+    const EightBoxes boxes = node.boxes();
+    for (std::uint32_t octant = 0; octant < 8; ++octant)
+      if (!is_permutation(node.order_for(octant))) return fail("node", number, "has an order that is none");
+    for (int i = 0; i < Node::kWidth && error_.empty(); ++i) {
       if (!node.has_child(i)) continue;
-      const FastChild child = node.child[i];
-      if (!box.contains(node.child_box(i))) return fail("node", number, "has a child outside of it");
+      const Child child = node.child[i];
+      if (!widened(box, 2.0F * node.looseness()).contains(boxes.box(i))) return fail("node", number, "has a child outside of it");
       if (child.is_leaf()) {
-        check_block(child, node.child_box(i), depth + 1);
+        check_block(child, boxes.box(i), depth + 1);
       } else if (child.node() <= number) {
         fail("node", number, "has a child before it");
       } else {
-        check_node(child.node(), node.child_box(i), depth + 1);
+        check_node(child.node(), boxes.box(i), depth + 1);
       }
     }
   }
 
-  void check_block(FastChild leaf, const Box& box, std::uint32_t depth) {
+  void check_block(Child leaf, const Box& box, std::uint32_t depth) {
     depth_ = std::max(depth_, depth);
-    const std::size_t first = bvh_.nodes().size() * FastChild::kNodeUnits;
-    const std::size_t number = (leaf.unit() - first) / TriangleBlock::kUnits;
+    const std::size_t first = bvh_.nodes().size() * Child::kNodeUnits;
+    const std::size_t number = (leaf.unit() - first) / Block::kUnits;
     if (leaf.unit() < first || bvh_.leaf(number).unit() != leaf.unit() || number >= bvh_.blocks().size() || block_is_reached_[number])
       return fail("block", leaf.unit(), "is not there, or reached twice");
     block_is_reached_[number] = true;
-    const TriangleBlock& block = bvh_.block(leaf);
+    if (!names_vertices(bvh_.block(leaf), vertices_.size())) return fail("block", leaf.unit(), "names a vertex that is not there");
+    const TriangleBlock& block = gathered(bvh_.block(leaf), vertices_.data());
     references_ += block.count();
     for (std::uint32_t place = 0; place < TriangleBlock::kWidth; ++place) {
       if (block.primitive[place] >= primitive_count_) return fail("block", leaf.unit(), "names a primitive that is not there");
@@ -76,8 +98,9 @@ class Validation {
     if (error_.empty()) error_ = std::string(what) + " " + std::to_string(number) + " " + how;
   }
 
-  const FastBvh& bvh_;
+  const Bvh& bvh_;
   std::size_t primitive_count_;
+  std::span<const Vec3> vertices_;
   std::vector<bool> node_is_reached_;
   std::vector<bool> block_is_reached_;
   std::uint32_t depth_ = 0;
@@ -87,15 +110,21 @@ class Validation {
 
 }  // namespace
 
-FastBvh::FastBvh(std::size_t node_count, std::size_t block_count) : node_count_(node_count), block_count_(block_count) {
-  const std::size_t size = first_block() + block_count * TriangleBlock::kUnits;
-  if (size > FastChild::kMostUnits)
+template <typename NodeFormat, typename BlockFormat>
+BasicFastBvh<NodeFormat, BlockFormat>::BasicFastBvh(std::size_t node_count, std::size_t block_count)
+    : node_count_(node_count), block_count_(block_count) {
+  const std::size_t size = first_block() + block_count * Block::kUnits;
+  if (size > Child::kMostUnits)
     throw Error("the fast path holds up to 32 GiB of nodes and triangles; divide the scene into instances, or use 'bvh'");
   units_.resize(size);
 }
 
-std::string FastBvh::validate(std::size_t primitive_count) const {
-  return Validation(*this, primitive_count).run();
+template <typename NodeFormat, typename BlockFormat>
+std::string BasicFastBvh<NodeFormat, BlockFormat>::validate(std::size_t primitive_count, std::span<const Vec3> mesh_vertices) const {
+  return Validation<BasicFastBvh>(*this, primitive_count, mesh_vertices).run();
 }
+
+template class BasicFastBvh<FastNode, TriangleBlock>;
+template class BasicFastBvh<CompressedNode, IndexedBlock>;
 
 }  // namespace grove

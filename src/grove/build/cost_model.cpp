@@ -52,9 +52,12 @@ double expected_cost(const WideBvh<kWidth>& bvh, const CostModel& model) {
   return cost_of(bvh, model);
 }
 
-double expected_cost(const FastBvh& bvh, const CostModel& model) {
+template <typename Node, typename Block>
+double expected_cost(const BasicFastBvh<Node, Block>& bvh, const CostModel& model) {
   return cost_of(bvh, model);
 }
+template double expected_cost(const FastBvh& bvh, const CostModel& model);
+template double expected_cost(const CompressedFastBvh& bvh, const CostModel& model);
 
 double expected_cost(const KdTree& tree, const CostModel& model) {
   const AreaMeasure measure(tree.bounds);

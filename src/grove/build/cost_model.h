@@ -11,9 +11,10 @@
 namespace grove {
 
 struct Bvh2;
-class FastBvh;
 struct KdTree;
 struct Octree;
+template <typename Node, typename Block>
+class BasicFastBvh;
 template <int kWidth>
 struct WideBvh;
 template <BoundingVolume V>
@@ -50,8 +51,9 @@ class AreaMeasure {
 template <int kWidth>
 [[nodiscard]] double expected_cost(const WideBvh<kWidth>& bvh, const CostModel& model);
 
-/// The same for the hierarchy of the fast path.
-[[nodiscard]] double expected_cost(const FastBvh& bvh, const CostModel& model);
+/// The same for the hierarchies of the fast path.
+template <typename Node, typename Block>
+[[nodiscard]] double expected_cost(const BasicFastBvh<Node, Block>& bvh, const CostModel& model);
 /// The same for a kd-tree, whose cells take the place of boxes.
 [[nodiscard]] double expected_cost(const KdTree& tree, const CostModel& model);
 /// The same for an octree, whose cells count as far as they lie in the bounds of the primitives.

@@ -20,10 +20,17 @@ class Reference {
   /// with all rays settles those outside the sample; until then they count as right.
   [[nodiscard]] std::uint64_t count_mismatches(std::span<const Hit> hits, std::size_t stride = 1);
 
+  /// The same for a structure whose hits may differ by rounding: those count that do not agree on whether there is one, or within 0.1 % on how far it is. Such a
+  /// structure settles nothing.
+  [[nodiscard]] std::uint64_t count_far_off(std::span<const Hit> hits, std::size_t stride = 1) const;
+
   /// How many rays brute force answered.
   [[nodiscard]] std::uint64_t sampled_count() const { return sampled_count_; }
 
  private:
+  // Whether the right answer to ray i is known.
+  [[nodiscard]] bool is_settled(std::size_t i) const { return is_complete_ || i % stride_ == 0; }
+
   std::vector<Hit> hits_;  // complete once is_complete_
   std::uint64_t stride_ = 1;
   std::uint64_t sampled_count_ = 0;

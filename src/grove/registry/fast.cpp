@@ -37,68 +37,79 @@ WideBvh<8> build_wide(const G& geometry, const std::string& quality) {
   return widen<8>(build_binary_hierarchy(geometry, options_for(quality)), settings);
 }
 
-// The hierarchy over a mesh, with the mesh's triangles in it.
+// The hierarchy over a mesh, with the mesh's triangles or their numbers in it, and how they are tested.
+template <typename Bvh>
 struct FastStructure {
-  FastBvh bvh;
+  Bvh bvh;
+  TriangleTest test;
+
+  [[nodiscard]] FastScene<Bvh> with(const TriangleMesh& mesh) const { return {bvh, mesh.vertices().data()}; }
 };
 
-template <typename C>
-void trace_closest(const FastStructure& structure, const TriangleMesh& /*mesh*/, const Ray& ray, Hit& hit, C& counter) {
+template <typename Bvh, typename C>
+void trace_closest(const FastStructure<Bvh>& structure, const TriangleMesh& mesh, const Ray& ray, Hit& hit, C& counter) {
   if constexpr (TellsApart<C>) {
     // Kernels only count; the plain walk can tell of its steps, and finds the same.
-    trace_closest(structure.bvh, ray, hit, counter);
+    trace_closest(structure.with(mesh), ray, hit, counter);
   } else {
-    trace_single_closest(structure.bvh, ray, hit, counter.nested());
+    trace_single_closest(structure.with(mesh), structure.test, ray, hit, counter.nested());
   }
 }
-template <typename C>
-bool trace_any(const FastStructure& structure, const TriangleMesh& /*mesh*/, const Ray& ray, C& counter) {
-  return trace_single_any(structure.bvh, ray, counter.nested());
+template <typename Bvh, typename C>
+bool trace_any(const FastStructure<Bvh>& structure, const TriangleMesh& mesh, const Ray& ray, C& counter) {
+  return trace_single_any(structure.with(mesh), structure.test, ray, counter.nested());
 }
-void trace_closest(const FastStructure& structure, const TriangleMesh& /*mesh*/, std::span<const Ray> rays, std::span<Hit> hits,
+template <typename Bvh>
+void trace_closest(const FastStructure<Bvh>& structure, const TriangleMesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
                    std::span<TraversalCounts> counts) {
-  trace_closest(structure.bvh, rays, hits, counts);
+  trace_closest(structure.with(mesh), structure.test, rays, hits, counts);
 }
-void trace_any(const FastStructure& structure, const TriangleMesh& /*mesh*/, std::span<const Ray> rays, std::span<std::uint8_t> results,
+template <typename Bvh>
+void trace_any(const FastStructure<Bvh>& structure, const TriangleMesh& mesh, std::span<const Ray> rays, std::span<std::uint8_t> results,
                std::span<TraversalCounts> counts) {
-  trace_any(structure.bvh, rays, results, counts);
+  trace_any(structure.with(mesh), structure.test, rays, results, counts);
 }
 
-using FastState = StructureState<FastStructure>;
+template <typename Bvh>
+using FastState = StructureState<FastStructure<Bvh>>;
 
-FastState build_over(const TriangleMesh& mesh, const std::string& quality) {
+template <typename Bvh>
+FastState<Bvh> build_over(const TriangleMesh& mesh, const std::string& quality, TriangleTest test) {
   const Timer timer;
   const WideBvh<8> wide = build_wide(mesh, quality);
   GROVE_ASSERT(wide.validate(mesh.size()).empty());
-  FastStructure structure{pack_fast(wide, mesh)};
+  FastStructure<Bvh> structure{pack_fast<Bvh>(wide, mesh), test};
   const double seconds = timer.seconds();
-  GROVE_ASSERT(structure.bvh.validate(mesh.size()).empty());
+  GROVE_ASSERT(structure.bvh.validate(mesh.size(), mesh.vertices()).empty());
   const Box bounds = structure.bvh.bounds;
   return {std::move(structure), bounds, seconds, {}};
 }
 
-StructureStatistics count(const FastState& state, const TriangleMesh& /*mesh*/) {
-  const FastBvh& bvh = state.structure.bvh;
+template <typename Bvh>
+StructureStatistics count(const FastState<Bvh>& state, const TriangleMesh& /*mesh*/) {
+  const Bvh& bvh = state.structure.bvh;
   StructureStatistics statistics = count_nodes(bvh);
   statistics.expected_cost = expected_cost(bvh, CostModel{});
   statistics.bytes = bvh.memory();
   return statistics;
 }
 
+template <typename Bvh>
 std::unique_ptr<Accelerator> build_over_mesh(const Spec& spec, std::shared_ptr<const TriangleMesh> mesh) {
   const std::string& quality = spec.value("quality");
-  FastState state = build_over(*mesh, quality);
-  const auto view = [](const FastStructure& s, const std::function<void(const NodeView&)>& visit) { view_nodes(s.bvh, visit); };
-  const auto measure = [](const FastStructure& /*s*/, const TriangleMesh& /*m*/) { return StructureQuality{}; };
-  const auto update = [quality](FastState& s, const TriangleMesh& m, const UpdateSettings& /*settings*/) {
-    const auto size = [](const FastState& now) {
+  const TriangleTest test = spec.value("triangles") == "fast" ? TriangleTest::fast : TriangleTest::watertight;
+  FastState<Bvh> state = build_over<Bvh>(*mesh, quality, test);
+  const auto view = [](const FastStructure<Bvh>& s, const std::function<void(const NodeView&)>& visit) { view_nodes(s.bvh, visit); };
+  const auto measure = [](const FastStructure<Bvh>& /*s*/, const TriangleMesh& /*m*/) { return StructureQuality{}; };
+  const auto update = [quality, test](FastState<Bvh>& s, const TriangleMesh& m, const UpdateSettings& /*settings*/) {
+    const auto size = [](const FastState<Bvh>& now) {
       return StructureMeasure{expected_cost(now.structure.bvh, CostModel{}), now.structure.bvh.references};
     };
     return update_by_rebuilding(
-        s, m, [&](const TriangleMesh& changed) { return build_over(changed, quality); }, size);
+        s, m, [&](const TriangleMesh& changed) { return build_over<Bvh>(changed, quality, test); }, size);
   };
-  return std::make_unique<StructureAccelerator<FastStructure, TriangleMesh>>(std::move(state), std::move(mesh), spec.canonical(), count,
-                                                                             view, measure, update);
+  return std::make_unique<StructureAccelerator<FastStructure<Bvh>, TriangleMesh>>(std::move(state), std::move(mesh), spec.canonical(),
+                                                                                  count<Bvh>, view, measure, update);
 }
 
 // Other primitives are tested one at a time, by the walk that all wide hierarchies share.
@@ -118,7 +129,21 @@ StructureFamily describe_fast() {
             0,
             0,
             0,
-            "how the hierarchy is built: by bins; along the Morton curve; or with spatial splits and reinsertion"}}};
+            "how the hierarchy is built: by bins; along the Morton curve; or with spatial splits and reinsertion"},
+           {"nodes",
+            {"full", "compressed"},
+            0,
+            0,
+            0,
+            "planes and triangles as floats; or planes on a grid of each node's and corners by their numbers in the mesh, in less than "
+            "half of the "
+            "memory (meshes only)"},
+           {"triangles",
+            {"watertight", "fast"},
+            0,
+            0,
+            0,
+            "the test of all other structures; or one in floats alone, which may miss at edges (meshes only)"}}};
 }
 
 std::unique_ptr<Accelerator> build_fast(const Spec& spec, const GeometryPointer& geometry) {
@@ -131,7 +156,7 @@ std::unique_ptr<Accelerator> build_fast(const Spec& spec, const GeometryPointer&
   return std::visit(
       [&]<typename G>(const std::shared_ptr<const G>& set) -> std::unique_ptr<Accelerator> {
         if constexpr (std::same_as<G, TriangleMesh>) {
-          return build_over_mesh(spec, set);
+          return spec.value("nodes") == "compressed" ? build_over_mesh<CompressedFastBvh>(spec, set) : build_over_mesh<FastBvh>(spec, set);
         } else {
           return build_over_others(spec, set);
         }

@@ -65,6 +65,11 @@ std::string canonical_spec(std::string_view spec) {
   return Spec::parse(spec).canonical();
 }
 
+bool rounds_hits(std::string_view spec) {
+  const Spec parsed = Spec::parse(spec);
+  return parsed.family().name == "fast" && parsed.value("triangles") == "fast";
+}
+
 std::unique_ptr<Accelerator> build(GeometryPointer geometry, std::string_view spec) {
   const Spec parsed = Spec::parse(spec);
   check_primitive_count(std::visit([](const auto& set) { return set->size(); }, geometry));

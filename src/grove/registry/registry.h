@@ -60,6 +60,9 @@ inline constexpr std::string_view kDefaultSpec = "bvh";
 /// Throws UsageError that lists what is allowed.
 [[nodiscard]] std::string canonical_spec(std::string_view spec);
 
+/// Whether hits of the structure may differ from those of all others by rounding, as those of `fast:triangles=fast` do. Throws as canonical_spec.
+[[nodiscard]] bool rounds_hits(std::string_view spec);
+
 /// Builds the structure that `spec` names over `geometry`, in parallel in the caller's oneTBB arena; the result does not depend on the
 /// number of threads. Throws UsageError for a bad spec and InputError for 2^31 primitives or more.
 [[nodiscard]] std::unique_ptr<Accelerator> build(GeometryPointer geometry, std::string_view spec = kDefaultSpec);

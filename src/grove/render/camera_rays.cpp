@@ -54,15 +54,14 @@ FilmPlace CameraRays::place(const Vec4& in_world) const {
   return {(Vec2(in_camera) / depth - corner_) / scale_, depth};
 }
 
-Camera frame_bounds(const Box& bounds, float aspect) {
-  constexpr float kFieldOfView = 0.6F;  // vertical, about 34 degrees: little distortion
+Camera frame_bounds(const Box& bounds, float aspect, float field_of_view) {
   constexpr float kMargin = 1.1F;
   const Vec3 from = glm::normalize(Vec3(0.55F, 0.42F, 1.0F));
   const Vec3 up(0.0F, 1.0F, 0.0F);
   const Vec3 right = glm::normalize(glm::cross(up, from));
   const Vec3 true_up = glm::cross(from, right);
   const Vec3 half = 0.5F * bounds.extent();
-  const float tan_y = std::tan(0.5F * kFieldOfView);
+  const float tan_y = std::tan(0.5F * field_of_view);
   const float tan_x = tan_y * aspect;
   // Far enough that each corner of the box is within the frustum.
   float distance = 0.0F;
@@ -73,7 +72,7 @@ Camera frame_bounds(const Box& bounds, float aspect) {
   }
   // A scene that is one point has no size to go by.
   if (!(distance > 0.0F)) distance = std::max(1.0F, glm::length(bounds.centre()) * 1e-3F);
-  return look_at(bounds.centre() + distance * from, bounds.centre(), up, kFieldOfView);
+  return look_at(bounds.centre() + distance * from, bounds.centre(), up, field_of_view);
 }
 
 }  // namespace grove

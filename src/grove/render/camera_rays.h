@@ -37,7 +37,11 @@ class CameraRays {
   float focus_distance_;
 };
 
-/// A view of the whole of `bounds` from above and a little to the side, +y up, for a film of this aspect (width over height).
-[[nodiscard]] Camera frame_bounds(const Box& bounds, float aspect);
+/// About 34 degrees: little distortion.
+inline constexpr float kUsualFieldOfView = 0.6F;
+
+/// A view of the whole of `bounds` from above and a little to the side, +y up, for a film of this aspect (width over height); the field of view is in radians,
+/// from bottom to top.
+[[nodiscard]] Camera frame_bounds(const Box& bounds, float aspect, float field_of_view = kUsualFieldOfView);
 
 }  // namespace grove

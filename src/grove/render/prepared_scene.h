@@ -9,8 +9,8 @@ namespace grove {
 
 /// A scene with all that integrators look up per ray. Refers to the scene and the accelerator; any number of threads may use it.
 struct PreparedScene {
-  PreparedScene(const Scene& source, const SceneAccelerator& structure)
-      : scene(source), accelerator(structure.top()), surfaces(source), materials(source), lights(source, surfaces) {}
+  PreparedScene(const Scene& source, const SceneAccelerator& structure, LightSampling sampling = LightSampling::hierarchy)
+      : scene(source), accelerator(structure.top()), surfaces(source), materials(source), lights(source, surfaces, sampling) {}
   PreparedScene(const PreparedScene&) = delete;  // the tables refer to each other
   PreparedScene& operator=(const PreparedScene&) = delete;
 

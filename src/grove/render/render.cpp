@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -14,26 +13,20 @@
 #include "grove/base/error.h"
 #include "grove/base/parallel.h"
 #include "grove/base/timer.h"
+#include "grove/render/adaptive/round_planner.h"
+#include "grove/render/adaptive/sample_rounds.h"
 #include "grove/render/camera_rays.h"
 #include "grove/render/film_ray.h"
 #include "grove/render/integrator/path.h"
 #include "grove/render/integrator/simple.h"
 #include "grove/render/sample_batch.h"
+#include "grove/render/time_limit.h"
 #include "grove/render/view.h"
 
 namespace grove {
 namespace {
 
 constexpr std::array<std::string_view, 5> kIntegratorNames = {"path", "ao", "normal", "depth", "cost"};
-
-// Each pass takes each pixel to one of 1, 2, 4, 8, 16, 32, 48, … samples: the first numbers are those at which the sample points are spread
-// most evenly, and passes of 16 are long enough to cost nothing.
-constexpr std::uint32_t kLongestPass = 16;
-
-std::uint32_t end_of_next_pass(std::uint32_t taken) {
-  if (taken >= kLongestPass) return taken / kLongestPass * kLongestPass + kLongestPass;
-  return std::bit_ceil(taken + 1);
-}
 
 PicturePart choose_part(const RenderSettings& settings, const TileGrid& grid) {
   if (settings.samples_per_pixel == 0) throw UsageError("a picture needs at least 1 sample per pixel");
@@ -47,18 +40,18 @@ PicturePart choose_part(const RenderSettings& settings, const TileGrid& grid) {
     throw UsageError("tile share " + std::to_string(std::uint64_t{part.share} + 1) + "/" + std::to_string(part.share_count) +
                      " has no tiles: the picture has " + std::to_string(grid.count()));
   }
+  if (settings.noise.is_on() && part.samples_per_pixel() != settings.samples_per_pixel) {
+    throw UsageError("with a noise target no samples can be left out: which are needed is known only when those before them are there");
+  }
+  if (!(settings.noise.floor > 0.0F) || settings.noise.min_samples < 2) {
+    throw UsageError("a noise target needs at least 2 samples per pixel and a floor above 0");
+  }
   return part;
 }
 
-// How far a film has come.
-struct Progression {
-  std::uint64_t taken = 0;  // over all pixels of the part
-  std::uint32_t least = 0;  // of any pixel
-};
-
-Progression progression(const Film& film, const PicturePart& part, const TileGrid& grid) {
-  Progression all;
-  std::uint64_t least = part.samples_per_pixel();
+// Samples that the film holds of the part.
+std::uint64_t count_taken(const Film& film, const PicturePart& part, const TileGrid& grid) {
+  std::uint64_t all = 0;
   for (std::size_t i = 0; i < part.tile_count(grid); ++i) {
     const Tile tile = grid.tile(part.tile_number(i));
     for (std::uint32_t y = tile.first_y; y < tile.end_y; ++y) {
@@ -68,24 +61,27 @@ Progression progression(const Film& film, const PicturePart& part, const TileGri
           throw UsageError("the earlier film has pixels of " + std::to_string(part.first_sample + taken) + " samples, more than the " +
                            std::to_string(part.end_sample) + " that are asked for");
         }
-        least = std::min(least, taken);
-        all.taken += taken;
+        all += taken;
       }
     }
   }
-  all.least = static_cast<std::uint32_t>(least);
   return all;
 }
 
 // When workers put down what they do: for good, or until what there is has been saved.
 class Pause {
  public:
-  Pause(std::stop_token stop, double seconds) : stop_(std::move(stop)), seconds_(seconds) {}
+  Pause(std::stop_token stop, double seconds, const TimeLimit& limit) : stop_(std::move(stop)), seconds_(seconds), limit_(limit) {}
 
+  /// While a round must be finished whatever the time.
+  void ignore_time_limit(bool ignores) { ignores_limit_ = ignores; }
+  [[nodiscard]] bool is_out_of_time() const { return !ignores_limit_ && limit_.is_over(); }
   [[nodiscard]] bool is_stopped() const { return stop_.stop_requested(); }
+  /// What is under way is not waited for and not gone on with.
+  [[nodiscard]] bool is_final() const { return is_stopped() || is_out_of_time(); }
   /// Not before something was done since the last one, however short the interval.
   [[nodiscard]] bool is_due() const { return has_work_.load(std::memory_order_relaxed) && timer_.seconds() >= seconds_; }
-  [[nodiscard]] bool is_wanted() const { return is_stopped() || is_due(); }
+  [[nodiscard]] bool is_wanted() const { return is_final() || is_due(); }
   void note_work() {
     if (!has_work_.load(std::memory_order_relaxed)) has_work_.store(true, std::memory_order_relaxed);
   }
@@ -97,6 +93,8 @@ class Pause {
  private:
   std::stop_token stop_;
   double seconds_;
+  const TimeLimit& limit_;
+  bool ignores_limit_ = false;
   Timer timer_;
   std::atomic<bool> has_work_{false};
 };
@@ -104,16 +102,15 @@ class Pause {
 // The work that all threads share.
 class RenderJob {
  public:
-  RenderJob(const PreparedScene& world, const CameraRays& camera, const RenderSettings& settings, std::uint32_t first_sample, Film& film,
-            RadianceMoments* moments)
-      : world_(world), camera_(camera), settings_(settings), film_(film), moments_(moments), first_sample_(first_sample) {
+  RenderJob(const PreparedScene& world, const CameraRays& camera, const RenderSettings& settings, std::uint32_t first_sample, Film& film)
+      : world_(world), camera_(camera), settings_(settings), film_(film), first_sample_(first_sample) {
     ao_distance_ = settings.ao_distance;
     if (!(ao_distance_ > 0.0F)) ao_distance_ = 0.1F * glm::length(world.scene.bounds().extent());
     if (!(ao_distance_ > 0.0F)) ao_distance_ = std::numeric_limits<float>::infinity();
   }
 
-  /// Takes each pixel to `end` samples, counted from the part's first, or as far as it comes before the pause. Returns how many it took.
-  std::uint64_t render_tile(const Tile& tile, std::uint32_t end, Pause& pause) {
+  /// Takes each pixel to its goal, counted from the part's first sample, or as far as it comes before the pause. Returns how many it took.
+  std::uint64_t render_tile(const Tile& tile, const SampleRounds& rounds, Pause& pause) {
     std::uint64_t rays = 0;
     std::uint64_t taken = 0;
     std::unique_ptr<SampleBatch> batch = takes_batches() ? idle_batch() : nullptr;
@@ -121,14 +118,15 @@ class RenderJob {
     for (std::uint32_t y = tile.first_y; y < tile.end_y; ++y) {
       for (std::uint32_t x = tile.first_x; x < tile.end_x; ++x) {
         const auto first = static_cast<std::uint32_t>(film_.pixel(x, y).taken());
+        const std::uint32_t end = rounds.goal(x, y);
         if (first >= end) continue;
         // Not only between tiles: one may take too long to wait for.
-        if (pause.is_wanted()) break;
+        if (settings_.noise.is_on() ? pause.is_final() : pause.is_wanted()) break;
         for (std::uint32_t s = first; s < end; ++s) {
           if (batch) {
             batch->add(x, y, first_sample_ + s);
           } else {
-            add_sample(film_, moments_, x, y, sample(x, y, first_sample_ + s, rays));
+            film_.add(x, y, sample(x, y, first_sample_ + s, rays));
           }
         }
         taken += end - first;
@@ -142,6 +140,25 @@ class RenderJob {
     }
     rays_traced_ += rays;
     return taken;
+  }
+
+  /// The same, but all of it or nothing: decisions about noise are made on tiles that stand between rounds.
+  std::uint64_t render_whole_tile(const Tile& tile, const SampleRounds& rounds, Pause& pause) {
+    std::vector<Film::Pixel> earlier;
+    earlier.reserve(tile.pixel_count());
+    std::uint64_t wanted = 0;
+    for (std::uint32_t y = tile.first_y; y < tile.end_y; ++y) {
+      for (std::uint32_t x = tile.first_x; x < tile.end_x; ++x) {
+        const Film::Pixel& pixel = earlier.emplace_back(film_.pixel(x, y));
+        wanted += std::max<std::uint64_t>(rounds.goal(x, y), pixel.taken()) - pixel.taken();
+      }
+    }
+    if (wanted == 0) return 0;
+    if (render_tile(tile, rounds, pause) == wanted) return wanted;
+    auto pixel = earlier.cbegin();
+    for (std::uint32_t y = tile.first_y; y < tile.end_y; ++y)
+      for (std::uint32_t x = tile.first_x; x < tile.end_x; ++x, ++pixel) film_.restore(x, y, *pixel);
+    return 0;
   }
 
   [[nodiscard]] std::uint64_t rays_traced() const { return rays_traced_; }
@@ -161,7 +178,7 @@ class RenderJob {
         return batch;
       }
     }
-    return std::make_unique<SampleBatch>(world_, camera_, path_settings(), settings_.seed, film_, moments_);
+    return std::make_unique<SampleBatch>(world_, camera_, path_settings(), settings_.seed, film_);
   }
 
   void put_back(std::unique_ptr<SampleBatch> batch) {
@@ -200,7 +217,6 @@ class RenderJob {
   const CameraRays& camera_;
   const RenderSettings& settings_;
   Film& film_;
-  RadianceMoments* moments_;  // or null
   std::uint32_t first_sample_;
   float ao_distance_ = 0.0F;
   std::atomic<std::uint64_t> rays_traced_{0};
@@ -226,6 +242,7 @@ Integrator integrator_from_name(std::string_view name) {
 RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, const RenderSettings& settings,
                     const ProgressReporter& progress, RenderCheckpoints checkpoints) {
   const Timer timer;
+  const TimeLimit limit(settings.time_limit, settings.clock);
   const View view = choose_view(scene, settings);
   const TileGrid grid(view.width, view.height);
   RenderResult result;
@@ -241,31 +258,43 @@ RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, con
   if (result.film.width() != view.width || result.film.height() != view.height) throw UsageError("the earlier film is of another size");
 
   const CameraRays camera_rays(view.camera, view.width, view.height);
-  const PreparedScene world(scene, accelerator);
+  const PreparedScene world(scene, accelerator, settings.lights);
   if (settings.integrator == Integrator::path && world.lights.has_default_sky()) {
     result.warnings.emplace_back("the scene has no light; lit by a default sky");
   }
 
-  if (settings.gathering.moments && !result.moments) result.moments.emplace(view.width, view.height);
-  RenderJob job(world, camera_rays, settings, result.part.first_sample, result.film, result.moments ? &*result.moments : nullptr);
-  const Progression earlier = progression(result.film, result.part, grid);
-  const std::uint32_t samples = result.part.samples_per_pixel();
-  const std::uint64_t total = result.part.pixel_count(grid) * samples;
+  RenderJob job(world, camera_rays, settings, result.part.first_sample, result.film);
+  const std::uint64_t earlier_samples = count_taken(result.film, result.part, grid);
   const std::uint64_t earlier_rays = result.rays_traced;
   const double earlier_seconds = result.seconds;
-  std::uint64_t done = earlier.taken;
+  SampleRounds rounds(result.film, result.part, settings.noise);
+  RoundPlanner planner(rounds, limit);
+  std::uint64_t done = earlier_samples;
+  std::uint64_t total = done;
   const auto take_stock = [&] {
     result.rays_traced = earlier_rays + job.rays_traced();
     result.dropped_samples = result.film.dropped_samples();
-    result.completed_fraction = static_cast<double>(done) / static_cast<double>(total);
-    result.interrupted = done < total;
+    result.completed_fraction = done < total ? static_cast<double>(done) / static_cast<double>(total) : 1.0;
+    result.out_of_time = planner.is_out_of_time();
+    result.interrupted = done < total && !result.out_of_time;
     result.seconds = earlier_seconds + timer.seconds();
   };
 
-  Pause pause(progress.stop, checkpoints.save ? checkpoints.interval_seconds : std::numeric_limits<double>::infinity());
+  Pause pause(progress.stop, checkpoints.save ? checkpoints.interval_seconds : std::numeric_limits<double>::infinity(), limit);
   std::mutex reporting;
-  std::uint32_t end = std::min(samples, end_of_next_pass(earlier.least));
-  while (done < total && !pause.is_stopped()) {
+  Film film_before;  // of this round, where it may have to be taken back
+  std::uint64_t done_before = done;
+  bool is_under_way = false;
+  for (;;) {
+    if (!is_under_way) {
+      if (!planner.plan_next()) break;
+      total = done + rounds.samples_left();
+      done_before = done;
+      pause.ignore_time_limit(planner.is_first_round());
+      if (limit.is_on() && !planner.is_first_round()) film_before = result.film;
+      is_under_way = true;
+    }
+    if (pause.is_stopped()) break;
     if (pause.is_due()) {
       take_stock();
       checkpoints.save(result);
@@ -273,14 +302,25 @@ RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, con
     }
     parallel_for(result.part.tile_count(grid), 1, [&](std::size_t i) {
       if (pause.is_wanted()) return;
-      const std::uint64_t taken = job.render_tile(grid.tile(result.part.tile_number(i)), end, pause);
+      const Tile tile = grid.tile(result.part.tile_number(i));
+      const std::uint64_t taken =
+          settings.noise.is_on() ? job.render_whole_tile(tile, rounds, pause) : job.render_tile(tile, rounds, pause);
       const std::lock_guard lock(reporting);
       done += taken;
-      if (progress.report) progress.report(done - earlier.taken, total - earlier.taken);
+      if (progress.report) progress.report(done - earlier_samples, planner.foreseen(done - earlier_samples, total - earlier_samples));
     });
-    // What was left of the pass at a pause is taken up again.
-    if (!pause.is_wanted()) end = std::min(samples, end_of_next_pass(end));
+    // What is left of the round after a pause is taken up again; what did not fit into the time is taken back.
+    if (done - done_before == rounds.samples()) {
+      planner.note_round(rounds.samples());
+      is_under_way = false;
+    } else if (pause.is_out_of_time()) {
+      result.film = std::move(film_before);
+      done = done_before;
+      planner.stop_in_time();
+      break;
+    }
   }
+  if (rounds.samples() == 0) total = done;
 
   if (settings.gathering.first_hits) {
     result.first_hits =

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "grove/base/progress.h"
+#include "grove/render/adaptive/noise.h"
 #include "grove/render/film.h"
 #include "grove/render/image/colour_image.h"
 #include "grove/render/layers/first_hits.h"
-#include "grove/render/layers/radiance_moments.h"
+#include "grove/render/light/light_sampling.h"
 #include "grove/render/picture_part.h"
 #include "grove/render/scene_accelerator.h"
 #include "grove/scene/scene.h"
@@ -42,7 +43,6 @@ enum class RayCalls : std::uint8_t {
 /// What is gathered beside the film, for layers of the picture and for denoisers. What is not asked for costs nothing.
 struct GatheringSettings {
   bool first_hits = false;
-  bool moments = false;
   /// Only with first hits: what their motion is measured against; null for none. Must outlive the render.
   const EarlierFrame* earlier = nullptr;
 };
@@ -57,12 +57,25 @@ struct RenderSettings {
   std::uint32_t max_depth = 8;
   std::uint64_t seed = 0;
   Integrator integrator = Integrator::path;
+  LightSampling lights = LightSampling::hierarchy;
   /// A camera's name; empty takes the scene's first or, when it has none, a view of the whole scene.
   std::string camera;
+  /// In place of any camera of the scene.
+  std::optional<Camera> viewpoint;
   /// World units; 0 takes a tenth of the diagonal of the scene's bounds.
   float ao_distance = 0.0F;
   /// Upper limit on one sample's indirect radiance (in any channel), against fireflies; biases the image. 0 is off.
   float indirect_clamp = 0.0F;
+  /// Pixels that are done before they have all samples. Stopping by an estimate biases a picture a little, towards the dark where rare bright samples
+  /// have not been met; `noise.min_samples`, pooling with the neighbours, and decisions at the ends of rounds only are against that. Not together
+  /// with a part that leaves out samples.
+  NoiseTarget noise;
+  /// Seconds that `render` may take, the preparing of the scene included; 0 is no limit. A round of samples that would not be finished in time is made
+  /// shorter or not begun; one that takes longer than foreseen is cut and taken back, so that the picture is even. The first round, of one sample a
+  /// pixel, is always finished.
+  double time_limit = 0.0;
+  /// What tells the time for that: seconds from any beginning on, called by any thread. Empty takes the machine's clock.
+  std::function<double()> clock;
   RayCalls ray_calls = RayCalls::batches;
   /// The part of the picture to make. An end_sample of 0 stands for samples_per_pixel, which it must not exceed.
   PicturePart part;
@@ -72,8 +85,6 @@ struct RenderSettings {
 struct RenderResult {
   Film film;
   std::optional<FirstHits> first_hits;
-  /// Of the samples of this render: those that it went on from, as they come from a file, are not in it.
-  std::optional<RadianceMoments> moments;
   /// What a denoiser made of the film; `render` leaves it empty.
   std::optional<ColourImage> denoised;
   Integrator integrator = Integrator::path;
@@ -86,9 +97,11 @@ struct RenderResult {
   std::uint64_t dropped_samples = 0;
   /// Rays and seconds are sums over this render and what it went on from.
   double seconds = 0.0;
-  /// Of all samples of the part; below 1 only when interrupted.
+  /// Of all samples of the part, with a noise target of those that it is guessed to need; below 1 only when interrupted or out of time.
   double completed_fraction = 0.0;
   bool interrupted = false;
+  /// The time limit was reached before all samples were taken.
+  bool out_of_time = false;
   /// One line each, such as that a scene without light was given a sky.
   std::vector<std::string> warnings;
 
@@ -108,10 +121,10 @@ struct RenderCheckpoints {
 
 /// Makes a picture of `scene`, which `accelerator` must have been built from. Runs in the caller's oneTBB arena over tiles of pixels,
 /// in passes that give each pixel a few more samples, and reports samples taken, of those that were left to take. When the stop token asks,
-/// finishes the pixels under way and returns what there is: each pixel with the first so many of its samples.
+/// finishes the pixels under way (with a noise target, drops the tiles under way) and returns what there is: each pixel with the first so many of its samples.
 ///
 /// The same scene and settings give the same film, bit for bit, for any number of threads, any structure (`cost` excepted, which
-/// shows the structure), and however often the render was interrupted and gone on with. Throws UsageError for an unknown camera or impossible
+/// shows the structure), and however often the render was interrupted and gone on with; a time limit alone makes it depend on the machine. Throws UsageError for an unknown camera or impossible
 /// settings, and what `save` throws.
 [[nodiscard]] RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, const RenderSettings& settings,
                                   const ProgressReporter& progress = {}, RenderCheckpoints checkpoints = {});

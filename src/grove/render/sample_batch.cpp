@@ -4,8 +4,8 @@
 
 namespace grove {
 
-SampleBatch::SampleBatch(const PreparedScene& world, const CameraRays& camera, const PathSettings& settings, std::uint64_t seed, Film& film, RadianceMoments* moments)
-    : camera_(&camera), seed_(seed), film_(&film), moments_(moments), paths_(world, settings) {
+SampleBatch::SampleBatch(const PreparedScene& world, const CameraRays& camera, const PathSettings& settings, std::uint64_t seed, Film& film)
+    : camera_(&camera), seed_(seed), film_(&film), paths_(world, settings) {
   pixels_.reserve(kSize);
   samplers_.reserve(kSize);
   rays_.reserve(kSize);
@@ -22,7 +22,7 @@ void SampleBatch::add(std::uint32_t x, std::uint32_t y, std::uint32_t number) {
 void SampleBatch::finish() {
   samples_.resize(pixels_.size());
   paths_.trace(rays_, samplers_, samples_);
-  for (std::size_t i = 0; i < pixels_.size(); ++i) add_sample(*film_, moments_, pixels_[i].x, pixels_[i].y, samples_[i]);
+  for (std::size_t i = 0; i < pixels_.size(); ++i) film_->add(pixels_[i].x, pixels_[i].y, samples_[i]);
   pixels_.clear();
   samplers_.clear();
   rays_.clear();

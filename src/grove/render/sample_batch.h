@@ -6,7 +6,6 @@
 #include "grove/render/camera_rays.h"
 #include "grove/render/film.h"
 #include "grove/render/integrator/path_batch.h"
-#include "grove/render/layers/radiance_moments.h"
 
 namespace grove {
 
@@ -16,9 +15,8 @@ class SampleBatch {
   /// Samples that are traced together. 256 to 4096 were equally quick within 4 %; 64 took up to a tenth longer. With the film's samples this is half a MiB.
   static constexpr std::size_t kSize = 2048;
 
-  /// All must outlive it; `moments` may be null.
-  SampleBatch(const PreparedScene& world, const CameraRays& camera, const PathSettings& settings, std::uint64_t seed, Film& film,
-              RadianceMoments* moments);
+  /// All must outlive it.
+  SampleBatch(const PreparedScene& world, const CameraRays& camera, const PathSettings& settings, std::uint64_t seed, Film& film);
 
   /// Gathers one sample of pixel (x, y); traces all where that makes the batch full.
   void add(std::uint32_t x, std::uint32_t y, std::uint32_t number);
@@ -38,7 +36,6 @@ class SampleBatch {
   const CameraRays* camera_;
   std::uint64_t seed_;
   Film* film_;
-  RadianceMoments* moments_;
   PathBatch paths_;
   std::vector<Pixel> pixels_;
   std::vector<Sampler> samplers_;

@@ -42,6 +42,7 @@ std::string list_cameras(const Scene& scene) {
 }
 
 Camera choose_camera(const Scene& scene, const RenderSettings& settings, const View& view) {
+  if (settings.viewpoint) return *settings.viewpoint;
   if (!settings.camera.empty()) {
     for (const Camera& camera : scene.cameras)
       if (camera.name == settings.camera) return camera;

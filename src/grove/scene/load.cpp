@@ -11,6 +11,7 @@
 
 #include "grove/base/error.h"
 #include "grove/base/timer.h"
+#include "grove/scene/load_animated.h"
 
 namespace grove {
 namespace {
@@ -60,33 +61,57 @@ void check_readable(const std::string& source, const std::filesystem::path& file
   }
 }
 
-Scene load_file(const std::string& source) {
+AnimatedScene load_file(const std::string& source, const std::string* animation) {
   const std::filesystem::path file(source);
   check_readable(source, file);
   const Format& format = find_format(source, file);
-  Scene scene = format.load(file);
-  if (scene.name.empty()) scene.name = file.filename().string();
+  AnimatedScene scene =
+      animation != nullptr && format.load == load_gltf ? load_animated_gltf(file, *animation) : AnimatedScene(format.load(file));
+  if (scene.scene().name.empty()) scene.scene().name = file.filename().string();
   return scene;
+}
+
+// With its own time from 0 to 1, where it has one and is not asked for a certain one.
+AnimatedScene make_builtin(const std::string& source, bool is_animated) {
+  const std::string request = source.substr(kBuiltinPrefix.size());
+  const std::string name = request.substr(0, request.find('?'));
+  const std::vector<std::string> moving = moving_builtin_scenes();
+  const bool moves = std::ranges::find(moving, name) != moving.end() && request.find("time=") == std::string::npos;
+  if (!is_animated || !moves) return AnimatedScene(make_builtin_scene(request));
+  const std::string timed = request + (request.find('?') == std::string::npos ? "?" : "&") + "time=";
+  return {[timed](double time) { return make_builtin_scene(timed + std::to_string(time)); }, 0.0, 1.0};
+}
+
+// With the animation that is asked for, where one is.
+AnimatedScene load(const std::string& source, const std::string* animation) {
+  const Timer timer;
+  try {
+    AnimatedScene scene;
+    if (source.starts_with(kBuiltinPrefix)) {
+      scene = make_builtin(source, animation != nullptr);
+      scene.scene().name = source;
+    } else {
+      scene = load_file(source, animation);
+    }
+    if (animation != nullptr && !animation->empty() && (!scene.animation() || source.starts_with(kBuiltinPrefix))) {
+      throw UsageError("--animation: " + source + " has no animation '" + *animation + "'; it has none at all");
+    }
+    scene.scene().validate(source);
+    scene.scene().load_seconds = timer.seconds();
+    return scene;
+  } catch (const std::bad_alloc&) {
+    throw InputError(source, "", "does not fit into memory");
+  }
 }
 
 }  // namespace
 
 Scene load_scene(const std::string& source) {
-  const Timer timer;
-  try {
-    Scene scene;
-    if (source.starts_with(kBuiltinPrefix)) {
-      scene = make_builtin_scene(std::string_view(source).substr(kBuiltinPrefix.size()));
-      scene.name = source;
-    } else {
-      scene = load_file(source);
-    }
-    scene.validate(source);
-    scene.load_seconds = timer.seconds();
-    return scene;
-  } catch (const std::bad_alloc&) {
-    throw InputError(source, "", "does not fit into memory");
-  }
+  return std::move(load(source, nullptr).scene());
+}
+
+AnimatedScene load_animated_scene(const std::string& source, const std::string& choice) {
+  return load(source, &choice);
 }
 
 }  // namespace grove

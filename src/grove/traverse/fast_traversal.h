@@ -35,21 +35,31 @@ namespace grove {
   return ~static_cast<unsigned>(four_lanes(outside)) & 0xfU;
 }
 
+/// A hierarchy of the fast path, and the vertices of its mesh for one whose blocks number them.
+template <typename Bvh>
+struct FastScene {
+  const Bvh& bvh;
+  const Vec3* vertices;
+};
+
 /// Walks the blocks that the ray meets, near to far; otherwise as walk_nodes, of which leaf(block) is the leaf.
-template <typename LeafTest, typename C>
-void walk_blocks(const FastBvh& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, C& counter) {
+template <typename Bvh, typename LeafTest, typename C>
+void walk_blocks(const FastScene<Bvh>& scene, const Ray& ray, const float& t_max, const LeafTest& leaf, C& counter) {
+  using Child = typename Bvh::Child;
+  const Bvh& bvh = scene.bvh;
   if (bvh.empty()) return;
-  const auto prefetch = [&](FastChild child) {
+  const auto prefetch = [&](Child child) {
     const char* const line = reinterpret_cast<const char*>(bvh.units() + child.unit());
-    for (std::size_t offset = 0; offset < sizeof(TriangleBlock); offset += 64) __builtin_prefetch(line + offset);
+    for (std::size_t offset = 0; offset < sizeof(typename Bvh::Block); offset += 64) __builtin_prefetch(line + offset);
   };
   walk_nodes(
-      bvh.nodes().data(), bvh.bounds, ray, t_max, [&](FastChild child) { return leaf(bvh.block(child)); }, prefetch, counter);
+      bvh.nodes().data(), bvh.bounds, ray, t_max, [&](Child child) { return leaf(gathered(bvh.block(child), scene.vertices)); }, prefetch,
+      counter);
 }
 
 /// Closest hit. `hit.t` must start as the ray's t_max.
-template <typename C>
-void trace_closest(const FastBvh& bvh, const Ray& ray, Hit& hit, C& counter) {
+template <typename Bvh, typename C>
+void trace_closest(const FastScene<Bvh>& scene, const Ray& ray, Hit& hit, C& counter) {
   const WatertightRay prepared(ray);
   const auto test_leaf = [&](const TriangleBlock& block) {
     const std::uint32_t count = block.count();
@@ -60,12 +70,12 @@ void trace_closest(const FastBvh& bvh, const Ray& ray, Hit& hit, C& counter) {
     }
     return false;
   };
-  walk_blocks(bvh, ray, hit.t, test_leaf, counter);
+  walk_blocks(scene, ray, hit.t, test_leaf, counter);
 }
 
 /// Any hit within [ray.t_min, ray.t_max].
-template <typename C>
-bool trace_any(const FastBvh& bvh, const Ray& ray, C& counter) {
+template <typename Bvh, typename C>
+bool trace_any(const FastScene<Bvh>& scene, const Ray& ray, C& counter) {
   const WatertightRay prepared(ray);
   bool found = false;
   const auto test_leaf = [&](const TriangleBlock& block) {
@@ -77,7 +87,7 @@ bool trace_any(const FastBvh& bvh, const Ray& ray, C& counter) {
     }
     return found;
   };
-  walk_blocks(bvh, ray, ray.t_max, test_leaf, counter);
+  walk_blocks(scene, ray, ray.t_max, test_leaf, counter);
   return found;
 }
 

@@ -67,8 +67,18 @@ template <typename Child>
   }
 }
 
+/// What WideSlabs tests: a node that has planes, or the boxes that it tells.
+template <typename Node>
+[[nodiscard]] decltype(auto) boxes_of(const Node& node) {
+  if constexpr (requires { node.boxes(); }) {
+    return node.boxes();
+  } else {
+    return (node);
+  }
+}
+
 /// Walks the children that are leaves and that the ray meets, near to far. leaf(child) returns whether the walk is over; it may lower what `t_max` refers to.
-/// `Node` has `planes` as WideNode has, and children that know is_leaf() and node(). Node 0 must be there, and the ray traceable.
+/// `Node` has `planes` as WideNode has, or tells boxes() that do, and children that know is_leaf() and node(). Node 0 must be there, and the ray traceable.
 template <typename Node, typename LeafTest, typename LeafPrefetch, typename C>
 void walk_nodes(const Node* nodes, const Box& bounds, const Ray& ray, const float& t_max, const LeafTest& leaf,
                 const LeafPrefetch& prefetch_leaf, C& counter) {
@@ -87,7 +97,7 @@ void walk_nodes(const Node* nodes, const Box& bounds, const Ray& ray, const floa
   for (;;) {
     count_node(counter, static_cast<std::uint32_t>(node - nodes));
     float entry[kWidth];
-    unsigned met = slabs.test(*node, t_min, splat(t_max), entry);
+    unsigned met = slabs.test(boxes_of(*node), t_min, splat(t_max), entry);
     const std::uint32_t bottom = stack_size;
     for (; met != 0; met &= met - 1) {
       const int i = std::countr_zero(met);

@@ -34,28 +34,41 @@ std::uint32_t order_for(const WideNode<8>& node, unsigned octant) {
   return order;
 }
 
-TriangleBlock pack_block(std::span<const std::uint32_t> references, const TriangleMesh& mesh) {
-  TriangleBlock block;
+void put(const TriangleMesh& mesh, std::uint32_t primitive, int place, TriangleBlock& block) {
+  const Triangle& triangle = mesh.triangles()[primitive];
+  for (int corner = 0; corner < 3; ++corner)
+    for (int axis = 0; axis < 3; ++axis) block.corners[axis][corner][place] = mesh.vertices()[triangle[corner]][axis];
+}
+
+void put(const TriangleMesh& mesh, std::uint32_t primitive, int place, IndexedBlock& block) {
+  for (int corner = 0; corner < 3; ++corner) block.vertex[corner][place] = mesh.triangles()[primitive][corner];
+}
+
+template <typename Block>
+Block pack_block(std::span<const std::uint32_t> references, const TriangleMesh& mesh) {
+  Block block;
   int places = 0;
-  const auto put = [&](std::uint32_t primitive) {
-    const Triangle& triangle = mesh.triangles()[primitive];
-    const std::uint32_t vertices[3] = {triangle.x, triangle.y, triangle.z};
-    for (int corner = 0; corner < 3; ++corner)
-      for (int axis = 0; axis < 3; ++axis) block.corners[axis][corner][places] = mesh.vertices()[vertices[corner]][axis];
+  const auto append = [&](std::uint32_t primitive) {
+    put(mesh, primitive, places, block);
     block.primitive[places++] = primitive;
   };
   // Leaves that a collapse has joined may name a primitive more than once.
   for (const std::uint32_t primitive : references)
-    if (std::find(block.primitive, block.primitive + places, primitive) == block.primitive + places) put(primitive);
-  while (places < TriangleBlock::kWidth) put(references[0]);
+    if (std::find(block.primitive, block.primitive + places, primitive) == block.primitive + places) append(primitive);
+  while (places < Block::kWidth) append(references[0]);
   return block;
 }
 
+template <typename Bvh>
 class Packing {
+  using Node = typename Bvh::Node;
+  using Block = typename Bvh::Block;
+  using Child = typename Bvh::Child;
+
  public:
   Packing(const WideBvh<8>& bvh, const TriangleMesh& mesh) : bvh_(bvh), mesh_(mesh) {}
 
-  FastBvh run() {
+  Bvh run() {
     if (!bvh_.references.empty()) bvh_.nodes.empty() ? pack_single_leaf() : pack_nodes();
     result_.bounds = bvh_.bounds;
     return std::move(result_);
@@ -67,7 +80,7 @@ class Packing {
     const auto count = static_cast<std::uint32_t>(bvh_.references.size());
     WideNode<8> node = empty_node();
     node.set_child(0, bvh_.bounds, {0, count});
-    result_ = FastBvh(1, 1);
+    result_ = Bvh(1, 1);
     result_.depth = 1;
     std::size_t block = 0;
     result_.references = pack(node, result_.nodes()[0], block);
@@ -82,7 +95,7 @@ class Packing {
     });
     std::size_t block_count = 0;
     for (std::size_t& first : first_block) block_count += std::exchange(first, block_count);
-    result_ = FastBvh(size, block_count);
+    result_ = Bvh(size, block_count);
     result_.depth = bvh_.depth;
     std::vector<std::uint32_t> references(first_block.size(), 0);
     parallel_chunks(size, kChunk, [&](std::size_t chunk, std::size_t first, std::size_t last) {
@@ -99,18 +112,24 @@ class Packing {
   }
 
   // Writes a node, and its leaves from block number `block` on. Returns how many triangles these hold.
-  std::uint32_t pack(const WideNode<8>& from, FastNode& to, std::size_t& block) {
+  std::uint32_t pack(const WideNode<8>& from, Node& to, std::size_t& block) {
     std::uint32_t references = 0;
-    std::copy_n(&from.planes[0][0][0], 3 * 2 * 8, &to.planes[0][0][0]);
-    for (unsigned octant = 0; octant < 8; ++octant) to.order[octant] = order_for(from, octant);
+    EightBoxes boxes;
+    static_assert(sizeof boxes.planes == sizeof from.planes);
+    std::copy_n(&from.planes[0][0][0], 3 * 2 * 8, &boxes.planes[0][0][0]);
+    int children = 0;
+    while (children < 8 && from.has_child(children)) ++children;
+    std::uint32_t orders[8];
+    for (unsigned octant = 0; octant < 8; ++octant) orders[octant] = order_for(from, octant);
+    to.set(boxes, children, orders);
     for (int place = 0; place < 8; ++place) {
       const auto [first, count] = from.child[place];
       if (count == 0) {
-        to.child[place] = FastChild::node(from.has_child(place) ? first : 0);
+        to.child[place] = Child::node(from.has_child(place) ? first : 0);
         continue;
       }
-      GROVE_ASSERT(count <= TriangleBlock::kWidth);
-      result_.blocks()[block] = pack_block({bvh_.references.data() + first, count}, mesh_);
+      GROVE_ASSERT(count <= Block::kWidth);
+      result_.blocks()[block] = pack_block<Block>({bvh_.references.data() + first, count}, mesh_);
       references += result_.blocks()[block].count();
       to.child[place] = result_.leaf(block++);
     }
@@ -119,13 +138,16 @@ class Packing {
 
   const WideBvh<8>& bvh_;
   const TriangleMesh& mesh_;
-  FastBvh result_;
+  Bvh result_;
 };
 
 }  // namespace
 
-FastBvh pack_fast(const WideBvh<8>& bvh, const TriangleMesh& mesh) {
-  return Packing(bvh, mesh).run();
+template <typename Bvh>
+Bvh pack_fast(const WideBvh<8>& bvh, const TriangleMesh& mesh) {
+  return Packing<Bvh>(bvh, mesh).run();
 }
+template FastBvh pack_fast(const WideBvh<8>& bvh, const TriangleMesh& mesh);
+template CompressedFastBvh pack_fast(const WideBvh<8>& bvh, const TriangleMesh& mesh);
 
 }  // namespace grove

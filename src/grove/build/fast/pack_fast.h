@@ -8,6 +8,8 @@ namespace grove {
 
 /// Lays a wide hierarchy out for the fast path: the same nodes, with their children's orders for the eight octants of direction, and the triangles of
 /// each leaf in a block. Leaves must hold at most TriangleBlock::kWidth references. O(n), parallel; the same for any number of threads.
-[[nodiscard]] FastBvh pack_fast(const WideBvh<8>& bvh, const TriangleMesh& mesh);
+/// `Bvh` is FastBvh or CompressedFastBvh.
+template <typename Bvh>
+[[nodiscard]] Bvh pack_fast(const WideBvh<8>& bvh, const TriangleMesh& mesh);
 
 }  // namespace grove

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <variant>
 
 #include "grove/render/bsdf/diffuse.h"
@@ -31,8 +32,18 @@ class Bsdf {
   [[nodiscard]] bool is_delta() const {
     return std::visit([](const auto& model) { return model.is_delta(); }, model_);
   }
+  /// Nothing comes through: `evaluate` is zero for wi.z <= 0, and `sample` gives no such direction. Models that are not known for it count as
+  /// letting light through.
+  [[nodiscard]] bool reflects_only() const {
+    return std::visit([]<typename M>(const M& /*model*/) { return kReflectsOnly<M>; }, model_);
+  }
 
  private:
+  template <typename M>
+  static constexpr bool kReflectsOnly =
+      std::same_as<M, DiffuseBsdf> || std::same_as<M, ConductorBsdf> || std::same_as<M, CoatedDiffuseBsdf> ||
+      std::same_as<M, CoatedConductorBsdf> || std::same_as<M, MetallicRoughnessBsdf>;
+
   Model model_;
 };
 

@@ -29,7 +29,7 @@ Denoise denoise_from_name(std::string_view name) {
 }
 
 TakenApart take_apart(const RenderResult& result) {
-  GROVE_CHECK(result.first_hits && result.moments);
+  GROVE_CHECK(result.first_hits);
   const Film& film = result.film;
   const std::size_t count = std::size_t{film.width()} * film.height();
   TakenApart parts{Guides::of(film, *result.first_hits), Illumination(count), std::vector<Vec3>(count)};
@@ -43,7 +43,7 @@ TakenApart take_apart(const RenderResult& result) {
       parts.emitted[i] = emitted;
       parts.light.set_colour(i, glm::max(film.mean(x, y).radiance - emitted, Vec3(0.0F)) / by);
       const float scale = 1.0F / luminance(by);
-      measured[i] = {scale * scale * result.moments->variance_of_mean(x, y), result.moments->count(x, y) >= 2, emitted == Vec3(0.0F)};
+      measured[i] = {scale * scale * film.variance_of_mean(x, y), film.pixel(x, y).sample_count >= 2, emitted == Vec3(0.0F)};
     }
   });
   limit_fireflies(measured, parts.guides, parts.light);

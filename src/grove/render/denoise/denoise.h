@@ -32,7 +32,7 @@ struct TakenApart {
   std::vector<Vec3> emitted;
 };
 
-/// Takes a path-traced picture apart. `result` must hold first hits and moments (`GatheringSettings`). O(pixels); in parallel in the caller's arena.
+/// Takes a path-traced picture apart. `result` must hold first hits (`GatheringSettings`). O(pixels); in parallel in the caller's arena.
 [[nodiscard]] TakenApart take_apart(const RenderResult& result);
 
 /// A path-traced picture with less noise: taken apart, filtered as a_trous.h tells by how unsure it is, and put together again. Where samples leave no doubt, nothing is filtered: with more

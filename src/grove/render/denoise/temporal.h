@@ -36,7 +36,7 @@ class TemporalDenoiser {
  public:
   explicit TemporalDenoiser(const TemporalSettings& settings = {}) : settings_(settings) {}
 
-  /// Takes in the next frame and returns it denoised. `frame` must hold first hits and moments, and where something moved its motion must have been measured against the frame before
+  /// Takes in the next frame and returns it denoised. `frame` must hold first hits, and where something moved its motion must have been measured against the frame before
   /// (`GatheringSettings::earlier`). A frame of another size starts anew. O(pixels).
   [[nodiscard]] ColourImage add(const RenderResult& frame, Movement movement);
 

@@ -86,8 +86,8 @@ Planes planes_of(const RenderResult& result, LayerSet layers) {
   if (layers.has(Layer::samples)) {
     planes.add({"samples.Y"}, [&](auto x, auto y) { return static_cast<float>(film.pixel(x, y).sample_count); });
   }
-  if (layers.has(Layer::variance) && result.moments) {
-    planes.add({"variance.Y"}, [&](auto x, auto y) { return result.moments->variance_of_mean(x, y); });
+  if (layers.has(Layer::variance)) {
+    planes.add({"variance.Y"}, [&](auto x, auto y) { return film.variance_of_mean(x, y); });
   }
   if (!result.first_hits) return planes;
   const FirstHits& hits = *result.first_hits;

@@ -37,8 +37,9 @@ Ray ray_to_light(const SurfacePoint& point, const LightSample& light) {
 // Light that comes straight from a light source and is scattered once, at `point`, towards the viewer. False where there is none.
 bool sample_light(const PreparedScene& world, const SurfacePoint& point, const ShadingPoint& shading, std::uint32_t vertex,
                   const PathState& path, ShadowRay& shadow) {
-  const LightSample light = world.lights.sample(point.position, path.sampler.sample_1d(dimension(vertex, VertexDimension::light_choice)),
-                                                path.sampler.sample_2d(dimension(vertex, VertexDimension::light_point)));
+  const LightSample light =
+      world.lights.sample(shading.receiver(point), path.sampler.sample_2d(dimension(vertex, VertexDimension::light_choice)),
+                          path.sampler.sample_2d(dimension(vertex, VertexDimension::light_point)));
   if (!(light.pdf > 0.0F)) return false;
   const Vec3 wi = shading.frame.to_local(light.direction);
   if (!shading.is_consistent(light.direction, wi)) return false;
@@ -62,7 +63,7 @@ bool scatter(const ShadingPoint& shading, const SurfacePoint& point, std::uint32
   path.throughput *= next.weight;
   path.eta_squared *= next.eta_squared;
   path.pdf = next.is_delta ? 0.0F : next.pdf;
-  path.previous = point.position;
+  path.previous = shading.receiver(point);
   ray = Ray{};
   ray.origin = point.offset_origin(direction);
   ray.direction = direction;

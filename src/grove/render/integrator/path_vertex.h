@@ -23,13 +23,13 @@ struct PathState {
   Sampler sampler;
   Vec3 throughput{1.0F};
   float eta_squared = 1.0F;         ///< undoes the compression of radiance in glass, for the roulette
-  Vec3 previous{0.0F};              ///< the last vertex
+  LightReceiver previous;           ///< the last vertex
   float pdf = 0.0F;                 ///< of the direction taken there; 0 where no light could have been sampled instead
   std::uint32_t chances_taken = 0;  ///< of passing partly transparent surfaces
   std::uint32_t id;                 ///< among those that are traced together
 };
 
-static_assert(sizeof(PathState) == 56, "batches of paths are to stay in the second-level cache");
+static_assert(sizeof(PathState) == 72, "batches of paths are to stay in the second-level cache");
 
 /// Light on its way to a vertex. It arrives as far as the ray is free.
 struct ShadowRay {

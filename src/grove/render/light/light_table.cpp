@@ -50,9 +50,25 @@ bool is_flat(const LightChoice::Group& group, const TriangleMesh& mesh, std::uin
   return true;
 }
 
+// A light without area. Beyond the inner cone a spot's light ends at the outer one.
+LightDescription describe(const PunctualLight& light, float strength) {
+  LightDescription result;
+  result.bounds.intensity = strength;
+  if (light.kind == PunctualLightKind::directional) {
+    result.direction = -light.direction;
+    return result;
+  }
+  result.bounds.box.grow(light.position);
+  result.bounds.axis = light.direction;
+  const bool is_spot = light.kind == PunctualLightKind::spot;
+  result.bounds.theta_o = is_spot ? light.inner_angle : kPi;
+  result.bounds.theta_e = is_spot ? light.outer_angle - light.inner_angle : 0.5F * kPi;
+  return result;
+}
+
 }  // namespace
 
-LightTable::LightTable(const Scene& scene, const SurfaceTable& surfaces) : scene_(&scene), surfaces_(&surfaces) {
+LightTable::LightTable(const Scene& scene, const SurfaceTable& surfaces, LightSampling sampling) : scene_(&scene), surfaces_(&surfaces) {
   Gathered gathered;
   add_surfaces(gathered);
   add_punctual(gathered);
@@ -66,10 +82,12 @@ LightTable::LightTable(const Scene& scene, const SurfaceTable& surfaces) : scene
   if (environment_.is_on()) {
     environment_light_ = static_cast<std::uint32_t>(lights_.size());
     lights_.push_back({.kind = Kind::environment});
-    gathered.power.push_back(kPi * environment_.mean_luminance());
-    gathered.groups.push_back({.first = environment_light_, .count = 1, .box = {}, .strength = kPi * environment_.mean_luminance()});
+    const float irradiance = kPi * environment_.mean_luminance();
+    gathered.descriptions.emplace_back().bounds.intensity = irradiance;
+    gathered.groups.push_back({.first = environment_light_, .count = 1, .box = {}, .strength = irradiance});
   }
-  choice_ = LightChoice(std::move(gathered.groups), gathered.power);
+  const float scene_radius = sampling == LightSampling::power ? 0.5F * glm::length(scene.bounds().extent()) : 0.0F;
+  selection_ = LightSelection(sampling, gathered.descriptions, std::move(gathered.groups), scene_radius);
 }
 
 void LightTable::add_punctual(Gathered& gathered) {
@@ -84,7 +102,7 @@ void LightTable::add_punctual(Gathered& gathered) {
       group.normal = light.direction;
     }
     lights_.push_back({.kind = Kind::punctual, .instance = i});
-    gathered.power.push_back(strength);
+    gathered.descriptions.push_back(describe(light, strength));
     gathered.groups.push_back(group);
   }
 }
@@ -110,12 +128,19 @@ void LightTable::add_part(std::uint32_t instance_id, std::uint32_t part, Gathere
   const Material& material = scene_->materials[object.parts[part].material];
   const float radiance = mean_luminance(*scene_, material.emission);
   LightChoice::Group group{.first = static_cast<std::uint32_t>(lights_.size()), .count = 0, .box = {}};
-  const auto add = [&](const Light& light, float world_area, const Box& bounds) {
+  // `normal`: of a flat light; zeros where light leaves in all directions.
+  const auto add = [&](const Light& light, float world_area, const Box& bounds, const Vec3& normal) {
     lights_.push_back(light);
-    const float power = std::isfinite(radiance * world_area) ? radiance * world_area : 0.0F;
-    gathered.power.push_back(power);
+    const float intensity = std::isfinite(radiance * world_area) ? radiance * world_area : 0.0F;
+    const bool is_flat = normal != Vec3(0.0F);
+    gathered.descriptions.push_back({.bounds = {.box = bounds,
+                                                .axis = is_flat ? normal : Vec3(0.0F, 0.0F, 1.0F),
+                                                .theta_o = is_flat ? 0.0F : kPi,
+                                                .theta_e = 0.5F * kPi,
+                                                .intensity = intensity,
+                                                .is_two_sided = is_flat && material.two_sided_emission}});
     group.box.grow(bounds);
-    group.strength += power;
+    group.strength += intensity;
     ++group.count;
   };
   if (const auto* pointer = std::get_if<std::shared_ptr<TriangleMesh>>(&object.geometry)) {
@@ -127,9 +152,10 @@ void LightTable::add_part(std::uint32_t instance_id, std::uint32_t part, Gathere
       // What can never be hit must not be sampled either: its area may not even be a number.
       const Box bounds = mesh.bounds(t);
       const float area = bounds.is_empty() ? 0.0F : triangle_area(mesh, t, instance.object_to_world);
-      add({Kind::triangle, instance_id, part, t - first, area}, area, instance.object_to_world.box(bounds));
+      const Vec3 normal =
+          area > 0.0F ? surfaces_->on_triangle(instance_id, part, t - first, Vec2(1.0F / 3.0F)).geometric_normal : Vec3(0.0F);
+      add({Kind::triangle, instance_id, part, t - first, area}, area, instance.object_to_world.box(bounds), normal);
       if (!group.is_planar || !(area > 0.0F)) continue;
-      const Vec3 normal = surfaces_->on_triangle(instance_id, part, t - first, Vec2(1.0F / 3.0F)).geometric_normal;
       if (group.normal == Vec3(0.0F)) group.normal = normal;
       group.is_planar = glm::dot(group.normal, normal) > 0.9999F;
     }
@@ -144,7 +170,7 @@ void LightTable::add_part(std::uint32_t instance_id, std::uint32_t part, Gathere
       const float radius = bounds.is_empty() ? 0.0F : spheres.sphere(s).radius;
       const float area = 4.0F * kPi * radius * radius;
       // A quarter of the area is seen from any one side.
-      add({Kind::sphere, instance_id, part, s - first, area}, 0.25F * area * area_scale, instance.object_to_world.box(bounds));
+      add({Kind::sphere, instance_id, part, s - first, area}, 0.25F * area * area_scale, instance.object_to_world.box(bounds), Vec3(0.0F));
     }
   }
   if (group.count > 0) gathered.groups.push_back(group);
@@ -157,9 +183,10 @@ Vec3 LightTable::emitted(const SurfacePoint& point, const Vec3& direction) const
   return evaluate(*scene_, material.emission, point.uv);
 }
 
-LightSample LightTable::sample(const Vec3& from, float u_light, const Vec2& u) const {
-  if (choice_.is_empty()) return {};
-  const LightChoice::Choice choice = choice_.choose(from, u_light);
+LightSample LightTable::sample(const LightReceiver& receiver, const Vec2& u_light, const Vec2& u) const {
+  const LightSelection::Choice choice = selection_.choose(receiver, u_light);
+  if (!(choice.probability > 0.0F)) return {};
+  const Vec3& from = receiver.position;
   const Light& light = lights_[choice.light];
   LightSample result;
   switch (light.kind) {
@@ -284,17 +311,18 @@ float LightTable::surface_pdf(const Light& light, const Vec3& from, const Surfac
   return std::isfinite(pdf) ? pdf : 0.0F;
 }
 
-float LightTable::pdf_of_hit(const Vec3& from, const Hit& hit, const SurfacePoint& point) const {
+float LightTable::pdf_of_hit(const LightReceiver& receiver, const Hit& hit, const SurfacePoint& point) const {
   const std::uint32_t instance = hit.instance == kInvalidId ? 0 : hit.instance;
   const std::uint32_t first = first_light_[first_part_[instance] + hit.geometry];
   if (first == kInvalidId) return 0.0F;
   const std::uint32_t id = first + hit.primitive;
-  return choice_.probability(from, id) * surface_pdf(lights_[id], from, point);
+  const float pdf = surface_pdf(lights_[id], receiver.position, point);
+  return pdf > 0.0F ? selection_.probability(receiver, id) * pdf : 0.0F;
 }
 
-float LightTable::pdf_of_environment(const Vec3& from, const Vec3& direction) const {
+float LightTable::pdf_of_environment(const LightReceiver& receiver, const Vec3& direction) const {
   if (environment_light_ == kInvalidId) return 0.0F;
-  return choice_.probability(from, environment_light_) * environment_.pdf(direction);
+  return selection_.probability(receiver, environment_light_) * environment_.pdf(direction);
 }
 
 }  // namespace grove

@@ -5,7 +5,9 @@
 
 #include "grove/geometry/hit.h"
 #include "grove/render/light/environment_light.h"
-#include "grove/render/light/light_choice.h"
+#include "grove/render/light/light_receiver.h"
+#include "grove/render/light/light_sampling.h"
+#include "grove/render/light/light_selection.h"
 #include "grove/render/surface/surface_table.h"
 #include "grove/scene/scene.h"
 
@@ -28,24 +30,29 @@ struct LightSample {
 
 /// All lights of a scene, ready to be chosen and sampled: emissive triangles and spheres, punctual lights, the environment.
 ///
-/// One light is chosen as light_choice.h says.
+/// One light is chosen as light_sampling.h says.
 class LightTable {
  public:
-  /// Refers to `scene` and `surfaces`. A scene without any light is given a sky.
-  LightTable(const Scene& scene, const SurfaceTable& surfaces);
+  /// Refers to `scene` and `surfaces`. A scene without any light is given a sky. O(lights log lights), parallel in the caller's oneTBB arena.
+  LightTable(const Scene& scene, const SurfaceTable& surfaces, LightSampling sampling = LightSampling::hierarchy);
 
   [[nodiscard]] const EnvironmentLight& environment() const { return environment_; }
   /// Whether the sky is the default one.
   [[nodiscard]] bool has_default_sky() const { return has_default_sky_; }
   [[nodiscard]] std::size_t size() const { return lights_.size(); }
 
-  /// Chooses a light by `u_light` and a point on it by `u`, as seen from `from`.
-  [[nodiscard]] LightSample sample(const Vec3& from, float u_light, const Vec2& u) const;
+  /// Chooses a light by `u_light` (whose second coordinate refines the first) and a point on it by `u`, as seen by `receiver`.
+  [[nodiscard]] LightSample sample(const LightReceiver& receiver, const Vec2& u_light, const Vec2& u) const;
 
-  /// The density with which `sample` from `from` gives the emissive point that a ray hit; 0 where it does not.
-  [[nodiscard]] float pdf_of_hit(const Vec3& from, const Hit& hit, const SurfacePoint& point) const;
-  /// The same for the environment in a direction from `from`.
-  [[nodiscard]] float pdf_of_environment(const Vec3& from, const Vec3& direction) const;
+  /// The density with which `sample` for the same receiver gives the emissive point that a ray hit; 0 where it does not.
+  [[nodiscard]] float pdf_of_hit(const LightReceiver& receiver, const Hit& hit, const SurfacePoint& point) const;
+  /// The same for the environment in a direction.
+  [[nodiscard]] float pdf_of_environment(const LightReceiver& receiver, const Vec3& direction) const;
+
+  /// The chance that `sample` takes light `number` of `size`.
+  [[nodiscard]] float chance_of(const LightReceiver& receiver, std::uint32_t number) const {
+    return selection_.probability(receiver, number);
+  }
 
   /// The radiance that a surface point sends towards `direction` (unit length).
   [[nodiscard]] Vec3 emitted(const SurfacePoint& point, const Vec3& direction) const;
@@ -60,9 +67,9 @@ class LightTable {
     float area = 0.0F;            // world; spheres: of the undistorted one
   };
 
-  // Lights while they are gathered: `power` has one entry a light, `groups` cover them in order.
+  // Lights while they are gathered: `descriptions` has one entry a light, `groups` cover them in order.
   struct Gathered {
-    std::vector<float> power;
+    std::vector<LightDescription> descriptions;
     std::vector<LightChoice::Group> groups;
   };
   void add_surfaces(Gathered& gathered);
@@ -85,7 +92,7 @@ class LightTable {
   EnvironmentLight environment_;
   bool has_default_sky_ = false;
   std::vector<Light> lights_;
-  LightChoice choice_;
+  LightSelection selection_;
   std::uint32_t environment_light_ = kInvalidId;
   // first_light_[first_part_[instance] + geometry] is the light of the part's first primitive, or kInvalidId.
   std::vector<std::uint32_t> first_part_;

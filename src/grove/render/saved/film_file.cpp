@@ -17,9 +17,9 @@ namespace grove {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "film files are little-endian");
-static_assert(sizeof(Film::Pixel) == 44, "pixels are written as they are in memory");
+static_assert(sizeof(Film::Pixel) == 48, "pixels are written as they are in memory");
 
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;  // 1: without squares and noise
 constexpr std::uint32_t kLargestHeader = 1U << 20;
 
 struct Preamble {
@@ -41,7 +41,8 @@ class FilmReader {
     read(&preamble, sizeof preamble);
     if (preamble.magic != Preamble().magic) fail("is no film file: it does not begin with GROVFILM");
     if (preamble.version != kVersion) {
-      fail("is a film file of version " + std::to_string(preamble.version) + "; this program reads version " + std::to_string(kVersion));
+      fail("is a film file of version " + std::to_string(preamble.version) + "; this program reads version " + std::to_string(kVersion) +
+           "; render it again");
     }
     if (preamble.header_size > kLargestHeader || preamble.header_size > size) fail("is damaged: its header cannot be of the size it names");
     std::string json(preamble.header_size, '\0');

@@ -31,6 +31,11 @@ FilmHeader parse(std::string_view text) {
   header.part.share_count = number(json.at("tiles"), "of");
   header.part.first_sample = number(json.at("samples"), "first");
   header.part.end_sample = number(json.at("samples"), "end");
+  const Json& noise = json.at("noise");
+  header.noise.target = noise.at("target").get<float>();
+  header.noise.min_samples = number(noise, "min_samples");
+  header.noise.floor = noise.at("floor").get<float>();
+  header.is_finished = json.at("finished").get<bool>();
   header.rays_traced = json.at("rays").get<std::uint64_t>();
   header.seconds = json.at("seconds").get<double>();
   for (const auto& [name, value] : json.at("picture").items()) header.picture.facts.push_back({name, value.get<std::string>()});
@@ -55,6 +60,7 @@ void check(const FilmHeader& header) {
       part.end_sample > header.samples_per_pixel) {
     throw InputError("'" + part.text() + "' is no part of the picture");
   }
+  if (!(header.noise.target >= 0.0F) || !(header.noise.floor > 0.0F)) throw InputError("a noise target cannot be like that");
 }
 
 }  // namespace
@@ -68,6 +74,8 @@ std::string film_header_json(const FilmHeader& header) {
                   {"samples_per_pixel", header.samples_per_pixel},
                   {"tiles", {{"share", header.part.share}, {"of", header.part.share_count}}},
                   {"samples", {{"first", header.part.first_sample}, {"end", header.part.end_sample}}},
+                  {"noise", {{"target", header.noise.target}, {"min_samples", header.noise.min_samples}, {"floor", header.noise.floor}}},
+                  {"finished", header.is_finished},
                   {"rays", header.rays_traced},
                   {"seconds", header.seconds},
                   {"picture", picture}};

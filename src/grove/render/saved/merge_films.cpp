@@ -33,6 +33,7 @@ void check_same_picture(const Source& first, const Source& other) {
     different =
         std::to_string(other.header.samples_per_pixel) + " samples per pixel instead of " + std::to_string(first.header.samples_per_pixel);
   }
+  if (different.empty() && other.header.noise != first.header.noise) different = "noise settings differ";
   if (!different.empty()) {
     throw InputError(other.path.string() + ": is of another picture than " + first.path.string() + ": " + different);
   }
@@ -131,8 +132,12 @@ MergedFilm merge_films(std::span<const std::filesystem::path> files) {
     const SavedFilm saved = read_film(source.path);
     header.rays_traced += saved.header.rays_traced;
     header.seconds += saved.header.seconds;
-    if (add_film(saved, grid, merged.whole.film) < 1.0) append_clause(merged.missing, source.path.string() + " is unfinished");
+    const bool is_full = add_film(saved, grid, merged.whole.film) >= 1.0;
+    // With a noise target a finished film need not be full.
+    if (!is_full && !(saved.header.noise.is_on() && saved.header.is_finished))
+      append_clause(merged.missing, source.path.string() + " is unfinished");
   }
+  header.is_finished = merged.missing.empty();
   return merged;
 }
 

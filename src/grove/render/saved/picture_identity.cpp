@@ -52,6 +52,7 @@ PictureIdentity picture_identity(const Scene& scene, const SceneAccelerator& acc
       {"camera", hexadecimal(fingerprint(view.camera))},
       {"ambient occlusion distance", exact(settings.ao_distance)},
       {"indirect clamp", exact(settings.indirect_clamp)},
+      {"lights", std::string(light_sampling_names()[static_cast<std::size_t>(settings.lights)])},
   }};
   // Of all integrators, this one shows the structure.
   if (settings.integrator == Integrator::cost) picture.facts.push_back({"structure", accelerator.spec()});

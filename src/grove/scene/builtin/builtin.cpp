@@ -19,8 +19,9 @@ struct Generator {
   bool moves = false;  // has the key `time`
 };
 
-constexpr std::array<Generator, 11> kGenerators{{{"cornell", make_cornell},
+constexpr std::array<Generator, 12> kGenerators{{{"cornell", make_cornell},
                                                  {"gears", make_gears},
+                                                 {"lanterns", make_lanterns},
                                                  {"mount", make_mount},
                                                  {"rings", make_rings},
                                                  {"shatter", make_shatter, true},

@@ -8,6 +8,7 @@ namespace grove {
 // One function per built-in scene; README.md beside this file lists their keys and their numbers of primitives.
 [[nodiscard]] Scene make_cornell(const BuiltinOptions& options);
 [[nodiscard]] Scene make_gears(const BuiltinOptions& options);
+[[nodiscard]] Scene make_lanterns(const BuiltinOptions& options);
 [[nodiscard]] Scene make_mount(const BuiltinOptions& options);
 [[nodiscard]] Scene make_rings(const BuiltinOptions& options);
 [[nodiscard]] Scene make_shatter(const BuiltinOptions& options);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grove/scene/scene.h"
@@ -31,6 +32,9 @@ class SceneBuilder {
   void set_constant_sky(const Vec3& radiance) { scene_.environment.radiance = radiance; }
   /// Sunlight that travels along `direction`.
   void add_sun(const Vec3& direction, const Vec3& irradiance);
+
+  /// A light without area, with all its fields.
+  void add_light(PunctualLight light) { scene_.lights.push_back(std::move(light)); }
 
   [[nodiscard]] Scene finish(Camera camera, FilmRequest film = {});
 

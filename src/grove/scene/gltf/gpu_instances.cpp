@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "grove/scene/animation/affine.h"
 #include "grove/scene/gltf/accessors.h"
-#include "grove/scene/gltf/nodes.h"
 
 namespace grove {
 namespace {

@@ -9,13 +9,6 @@
 
 namespace grove {
 
-float to_float(double value) {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  if (value > kLargest) return std::numeric_limits<float>::infinity();
-  if (value < -kLargest) return -std::numeric_limits<float>::infinity();
-  return static_cast<float>(value);
-}
-
 JsonCursor::JsonCursor(const nlohmann::json& root, const std::string& file) : value_(&root), file_(&file) {}
 
 JsonCursor JsonCursor::operator[](std::string_view key) const {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "grove/math/to_float.h"
 #include "grove/math/vector.h"
 
 namespace grove {
@@ -63,8 +64,5 @@ class JsonCursor {
   const std::string* file_;
   std::string path_;
 };
-
-/// A double as the nearest float; beyond the range of float an infinity (where a plain cast is undefined).
-[[nodiscard]] float to_float(double value);
 
 }  // namespace grove

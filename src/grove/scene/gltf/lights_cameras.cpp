@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "grove/scene/animation/placement.h"
+
 namespace grove {
 namespace {
 
@@ -17,19 +19,10 @@ PunctualLightKind read_kind(const JsonCursor& place) {
   place.fail("is none of point, spot and directional");
 }
 
-// Lights and cameras look along -z of their node. Zero when the node is scaled to nothing.
-Vec3 forward(const Mat4& to_world) {
-  const Vec3 axis = -Vec3(to_world[2]);
-  const float length = glm::length(axis);
-  return length > 0.0F && std::isfinite(length) ? axis / length : Vec3(0.0F);
-}
-
-PunctualLight read_light(const JsonCursor& source, const Mat4& to_world) {
+PunctualLight read_light(const JsonCursor& source) {
   PunctualLight light;
   light.name = source["name"].text();
   light.kind = read_kind(source["type"]);
-  light.position = Vec3(to_world[3]);
-  light.direction = forward(to_world);
   light.intensity = source["color"].vec3(Vec3(1.0F)) * source["intensity"].real(1.0F);
   const JsonCursor spot = source["spot"];
   const float outer = spot["outerConeAngle"].real(kPi / 4.0F);
@@ -39,33 +32,23 @@ PunctualLight read_light(const JsonCursor& source, const Mat4& to_world) {
   return light;
 }
 
-bool is_usable(const PunctualLight& light) {
-  const Vec3 sum = light.intensity + light.position;
-  const bool finite = std::isfinite(sum.x) && std::isfinite(sum.y) && std::isfinite(sum.z);
-  const bool dark = light.intensity.x < 0.0F || light.intensity.y < 0.0F || light.intensity.z < 0.0F;
-  return finite && !dark && (light.kind == PunctualLightKind::point || light.direction != Vec3(0.0F));
-}
-
-// A camera's node turns and moves it; scale has no part in it. False when the axes do not span the space.
-bool remove_scale(Mat4& matrix) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const float length = glm::length(Vec3(matrix[axis]));
-    if (!(length > 0.0F) || !std::isfinite(length)) return false;
-    matrix[axis] /= length;
-  }
-  return std::abs(glm::determinant(Mat3(matrix))) > 1e-6F;
+bool has_usable_intensity(const PunctualLight& light) {
+  const Vec3& i = light.intensity;
+  const bool finite = std::isfinite(i.x) && std::isfinite(i.y) && std::isfinite(i.z);
+  return finite && i.x >= 0.0F && i.y >= 0.0F && i.z >= 0.0F;
 }
 
 }  // namespace
 
-void read_lights(GltfDocument& document, const GltfNodes& nodes, Scene& scene) {
+void read_lights(GltfDocument& document, const GltfNodes& nodes, Scene& scene, GltfMotion& motion) {
   const JsonCursor lights = document.root().extension("KHR_lights_punctual")["lights"];
   for (const GltfNode& node : nodes.shown) {
     const JsonCursor named = document.array("nodes").element(node.id).extension("KHR_lights_punctual")["light"];
     const auto id = named.index(lights.size(), "lights");
     if (!id) continue;
-    PunctualLight light = read_light(lights.element(*id), node.to_world);
-    if (is_usable(light)) {
+    PunctualLight light = read_light(lights.element(*id));
+    if (has_usable_intensity(light) && place_light(node.to_world, light)) {
+      motion.follow_light(node.id, scene.lights.size());
       scene.lights.push_back(std::move(light));
     } else if (document.is_first("broken light")) {
       scene.warn("lights without a direction, or with an intensity that is negative or not finite, are left out, such as " + named.path());
@@ -73,7 +56,7 @@ void read_lights(GltfDocument& document, const GltfNodes& nodes, Scene& scene) {
   }
 }
 
-void read_cameras(GltfDocument& document, const GltfNodes& nodes, Scene& scene) {
+void read_cameras(GltfDocument& document, const GltfNodes& nodes, Scene& scene, GltfMotion& motion) {
   const JsonCursor cameras = document.array("cameras");
   for (const GltfNode& node : nodes.shown) {
     const JsonCursor node_source = document.array("nodes").element(node.id);
@@ -86,9 +69,9 @@ void read_cameras(GltfDocument& document, const GltfNodes& nodes, Scene& scene) 
     }
     Camera camera;
     camera.name = source["name"].text(node_source["name"].text());
-    camera.camera_to_world = node.to_world;
     camera.field_of_view = source["perspective"]["yfov"].real(0.0F);
-    if (camera.field_of_view > 0.0F && camera.field_of_view < kPi && remove_scale(camera.camera_to_world)) {
+    if (camera.field_of_view > 0.0F && camera.field_of_view < kPi && place_camera(node.to_world, camera)) {
+      motion.follow_camera(node.id, scene.cameras.size());
       scene.cameras.push_back(std::move(camera));
     } else if (document.is_first("broken camera")) {
       scene.warn("cameras without a field of view between 0 and pi, or in a node scaled to nothing, are left out, such as " +

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "grove/math/vector.h"
+#include "grove/scene/animation/node_tree.h"
 #include "grove/scene/gltf/document.h"
 #include "grove/scene/scene.h"
 
@@ -15,8 +16,9 @@ struct GltfNode {
   Mat4 to_world{1.0F};
 };
 
-/// The node hierarchy with world transforms.
+/// The node hierarchy with world transforms at rest.
 struct GltfNodes {
+  NodeTree tree;
   /// The nodes of the scene that is shown, but for those whose transform is not finite.
   std::vector<GltfNode> shown;
   /// World transform of each node of the file, shown or not; not finite for nodes inside a cycle that nothing reaches.
@@ -26,11 +28,5 @@ struct GltfNodes {
 /// Walks the default scene (the first where none is named; all root nodes where there is no scene), without recursion. Throws InputError
 /// when a node can be reached twice: a cycle, or a node with two parents. Nodes whose transform is not finite are left out with a warning.
 [[nodiscard]] GltfNodes read_nodes(GltfDocument& document, Scene& scene);
-
-/// Translation after rotation (a quaternion x, y, z, w of any length; zero turns nothing) after scale.
-[[nodiscard]] glm::dmat4 compose_transform(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);
-
-/// Whether all 16 numbers are finite.
-[[nodiscard]] bool is_finite(const Mat4& matrix);
 
 }  // namespace grove

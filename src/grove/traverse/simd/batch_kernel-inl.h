@@ -12,13 +12,16 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "grove/traverse/fast_traversal.h"
 #include "grove/traverse/simd/batch_slot.h"
+#include "grove/traverse/simd/block_hits-inl.h"
 #include "grove/traverse/simd/block_test-inl.h"
 #include "grove/traverse/simd/node_step-inl.h"
 #include "grove/traverse/simd/ray_setup-inl.h"
+#include "grove/traverse/simd/triangle_test.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace grove {
@@ -27,11 +30,14 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // kAny: any hit instead of the closest. kCounts: with counters.
-template <bool kAny, bool kCounts>
+template <typename Bvh, TriangleTest kTest, bool kAny, bool kCounts>
 class BatchKernel {
+  using Node = typename Bvh::Node;
+  using Block = typename Bvh::Block;
+
  public:
-  BatchKernel(const BatchQuery& query, BatchMemory& memory)
-      : query_(query), setup_(query.bvh.bounds), memory_(memory), capacity_(memory.capacity()), units_(query.bvh.units()) {}
+  BatchKernel(const BatchQuery<Bvh>& query, BatchMemory& memory)
+      : query_(query), setup_(query.scene.bvh.bounds), memory_(memory), capacity_(memory.capacity()), units_(query.scene.bvh.units()) {}
 
   void run() {
     for (std::uint32_t slot = 0; slot < kSlots; ++slot) refill(slot);
@@ -69,10 +75,7 @@ class BatchKernel {
       const std::uint32_t word = slot.stack_child(capacity_)[--slot.stack_size];
       slot.next = word;
       const char* const line = &at<char>(word);
-      __builtin_prefetch(line);
-      __builtin_prefetch(line + 64);
-      __builtin_prefetch(line + 128);
-      __builtin_prefetch(line + 192);
+      for (std::size_t offset = 0; offset < sizeof(Node); offset += 64) __builtin_prefetch(line + offset);
       leave_nodes |= (word >> 31) << number;
       leave |= (word >> 30 & 1U) << number;
     }
@@ -94,26 +97,65 @@ class BatchKernel {
 
   HWY_INLINE void step(BatchSlot& slot) {
     if constexpr (kCounts) ++query_.counts[slot.index].nodes_visited;
-    step_through<kAny>(at<FastNode>(slot.next), slot, capacity_);
+    step_through<kAny>(at<Node>(slot.next), slot, capacity_);
     if constexpr (kCounts) {
       std::uint32_t& deepest = query_.counts[slot.index].stack_depth;
       deepest = std::max(deepest, slot.stack_size - 1);
     }
   }
 
-  // Tests the leaves of all slots in a list: first which triangles may be hit at all, for all of them without a branch; then those that may.
+  // Brings the triangles of leaves together where blocks only number their corners: asks for all corners first, so that they come side by side.
+  HWY_INLINE void gather(SlotSet slots) {
+    if constexpr (kGathers) {
+      const Vec3* const vertices = query_.scene.vertices;
+      for (SlotSet left = slots; left != 0;) {
+        const auto& block = at<Block>(memory_.slot(take_first(left)).next);
+        for (const auto& corner : block.vertex)
+          for (const std::uint32_t vertex : corner) __builtin_prefetch(vertices + vertex);
+      }
+      for (SlotSet left = slots; left != 0;) {
+        const std::uint32_t number = take_first(left);
+        gathered_[number] = gathered(at<Block>(memory_.slot(number).next), vertices);
+      }
+    }
+  }
+
+  // What a slot at a leaf is to test.
+  [[nodiscard]] HWY_INLINE const TriangleBlock& block_of(std::uint32_t number, const BatchSlot& slot) const {
+    if constexpr (kGathers) {
+      return gathered_[number];
+    } else {
+      return at<TriangleBlock>(slot.next);
+    }
+  }
+
+  HWY_INLINE void count_leaf_of(const BatchSlot& slot, const TriangleBlock& block) {
+    if constexpr (kCounts) {
+      query_.counts[slot.index].primitives_tested += block.count();
+      ++query_.counts[slot.index].leaves_entered;
+    }
+  }
+
   HWY_INLINE void test_leaves() {
     const SlotSet testing = std::exchange(at_leaf_, 0);
+    gather(testing);
+    if constexpr (kTest == TriangleTest::watertight) {
+      test_watertight(testing);
+    } else {
+      test_fast(testing);
+    }
+    advance(testing);
+  }
+
+  // Tests the leaves of slots: first which triangles may be hit at all, for all of them without a branch; then those that may.
+  HWY_INLINE void test_watertight(SlotSet testing) {
     std::uint8_t possible[kSlots];
     SlotSet settling = 0;
     for (SlotSet left = testing; left != 0;) {
       const std::uint32_t number = take_first(left);
       BatchSlot& slot = memory_.slot(number);
-      const auto& block = at<TriangleBlock>(slot.next);
-      if constexpr (kCounts) {
-        query_.counts[slot.index].primitives_tested += block.count();
-        ++query_.counts[slot.index].leaves_entered;
-      }
+      const TriangleBlock& block = block_of(number, slot);
+      count_leaf_of(slot, block);
       const BlockFilter filter = filter_block<kAny>(slot.ray, slot.t, block);
       bool is_open = filter.possible != 0;
       if constexpr (kAny) {
@@ -126,7 +168,31 @@ class BatchKernel {
       settling |= (is_open ? 1U : 0U) << number;
     }
     settle(settling, possible);
-    advance(testing);
+  }
+
+  HWY_INLINE void test_fast(SlotSet testing) {
+    SlotSet hit = 0;
+    for (SlotSet left = testing; left != 0;) {
+      const std::uint32_t number = take_first(left);
+      BatchSlot& slot = memory_.slot(number);
+      const TriangleBlock& block = block_of(number, slot);
+      count_leaf_of(slot, block);
+      FourHits hits;
+      test_block(slot.ray, slot.t, block, hits);
+      if constexpr (kAny) {
+        slot.primitive = hits.places != 0 ? 0 : slot.primitive;
+        slot.stack_size = hits.places != 0 ? 1 : slot.stack_size;
+      } else if (hits.places != 0) {
+        Hit closest = hit_of(slot);
+        take_closest(hits, block, closest);
+        slot.t = closest.t;
+        slot.u = closest.u;
+        slot.v = closest.v;
+        slot.primitive = closest.primitive;
+        hit |= SlotSet{1} << number;
+      }
+    }
+    while (hit != 0) drop_what_is_farther(memory_.slot(take_first(hit)), capacity_);
   }
 
   // Tests the possible triangles of slots, and shortens the stacks of those that are hit.
@@ -136,7 +202,7 @@ class BatchKernel {
       const std::uint32_t number = take_first(settling);
       const BatchSlot& slot = memory_.slot(number);
       for (std::uint32_t left = possible[number]; left != 0; left &= left - 1) {
-        candidates_.append(number, slot.ray, at<TriangleBlock>(slot.next), static_cast<std::uint32_t>(std::countr_zero(left)));
+        candidates_.append(number, slot.ray, block_of(number, slot), static_cast<std::uint32_t>(std::countr_zero(left)));
         if (candidates_.is_full()) hit |= test_appended();
       }
     }
@@ -158,21 +224,22 @@ class BatchKernel {
     for (std::size_t i = 0; i < candidates_.count; ++i) {
       const std::uint32_t number = candidates_.slot[i];
       BatchSlot& slot = memory_.slot(number);
-      const bool is_hit = (candidates_.known >> i & 1U) != 0 ? take_hit(slot, i) : test_alone(slot, candidates_.place[i]);
+      const TriangleBlock& block = block_of(number, slot);
+      const bool is_hit = (candidates_.known >> i & 1U) != 0 ? take_hit(slot, block, i) : test_alone(slot, block, candidates_.place[i]);
       hit |= (is_hit ? 1U : 0U) << number;
     }
     candidates_.count = 0;
     return hit;
   }
 
-  HWY_INLINE bool take_hit(BatchSlot& slot, std::size_t i) {
+  HWY_INLINE bool take_hit(BatchSlot& slot, const TriangleBlock& block, std::size_t i) {
     const float t = candidates_.t[i];
     if constexpr (kAny) {
       if (!(t >= slot.ray.t_min && t <= slot.t && t < std::numeric_limits<float>::infinity())) return false;
       slot.primitive = 0;
       return true;
     }
-    const std::uint32_t primitive = at<TriangleBlock>(slot.next).primitive[candidates_.place[i]];
+    const std::uint32_t primitive = block.primitive[candidates_.place[i]];
     if (!(t >= slot.ray.t_min && is_closer(t, primitive, hit_of(slot)))) return false;
     const float sum = candidates_.weight[0][i] + candidates_.weight[1][i] + candidates_.weight[2][i];
     slot.t = t;
@@ -182,8 +249,7 @@ class BatchKernel {
     return true;
   }
 
-  HWY_NOINLINE bool test_alone(BatchSlot& slot, std::uint32_t place) const {
-    const auto& block = at<TriangleBlock>(slot.next);
+  static HWY_NOINLINE bool test_alone(BatchSlot& slot, const TriangleBlock& block, std::uint32_t place) {
     const WatertightRay ray = slot.ray.triangle_ray();
     const SingleTriangle triangle = triangle_in(block, place);
     if constexpr (kAny) {
@@ -235,7 +301,7 @@ class BatchKernel {
       const Ray& ray = query_.rays[next_ray_];
       if (next_ray_ % RaySetup<8>::kCount == 0) setup_.prepare(&ray, std::min(RaySetup<8>::kCount, query_.count - next_ray_));
       if constexpr (kCounts) query_.counts[next_ray_] = {};
-      if (!setup_.is_regular(next_ray_ % RaySetup<8>::kCount) || query_.bvh.empty()) {
+      if (!setup_.is_regular(next_ray_ % RaySetup<8>::kCount) || query_.scene.bvh.empty()) {
         trace_alone(ray);
         continue;
       }
@@ -258,9 +324,9 @@ class BatchKernel {
       hit.t = ray.t_max;
       const auto trace = [&](auto counter) {
         if constexpr (kAny) {
-          hit.primitive = trace_any(query_.bvh, ray, counter) ? 0 : kInvalidId;
+          hit.primitive = trace_any(query_.scene, ray, counter) ? 0 : kInvalidId;
         } else {
-          trace_closest(query_.bvh, ray, hit, counter);
+          trace_closest(query_.scene, ray, hit, counter);
         }
       };
       if constexpr (kCounts) {
@@ -272,12 +338,15 @@ class BatchKernel {
     write(next_ray_, hit);
   }
 
-  const BatchQuery& query_;
+  static constexpr bool kGathers = !std::is_same_v<Block, TriangleBlock>;
+
+  const BatchQuery<Bvh>& query_;
   RaySetup<8> setup_;
   BatchMemory& memory_;
   const std::size_t capacity_;
   const FastUnit* const units_;
   HitCandidates candidates_;
+  TriangleBlock gathered_[kGathers ? kSlots : 1];  // by slot
   SlotSet at_node_ = 0;
   SlotSet at_leaf_ = 0;
   SlotSet done_ = 0;

@@ -3,13 +3,13 @@
 #include <array>
 #include <cstdint>
 
-#include "grove/accel/fast_bvh.h"
+#include "grove/accel/fast_node.h"
 #include "grove/geometry/watertight_triangle.h"
 
 namespace grove {
 
-/// Where the planes of a node's children begin for rays of an octant, in floats: the near ones and the far ones by axis. Octants are numbered as
-/// FastNode's orders.
+/// Where the planes of a node's children begin for rays of an octant, in planes: the near ones and the far ones by axis. Octants are numbered as
+/// a node's orders.
 struct PlaneRows {
   std::uint32_t near[3];
   std::uint32_t far[3];

@@ -10,13 +10,15 @@
 #include "grove/base/huge_vector.h"
 #include "grove/geometry/hit.h"
 #include "grove/geometry/traversal_counts.h"
+#include "grove/traverse/fast_traversal.h"
 #include "grove/traverse/simd/batch_ray.h"
 
 namespace grove {
 
 /// One batch: what the kernels read and write. Exactly one of `hits` and `results` is there.
+template <typename Bvh>
 struct BatchQuery {
-  const FastBvh& bvh;
+  FastScene<Bvh> scene;
   const Ray* rays;
   std::size_t count;
   Hit* hits;
@@ -27,7 +29,7 @@ struct BatchQuery {
 /// A ray's place in the kernel. Its stack follows in memory: the distances of entries, and `capacity` of them later the children.
 struct alignas(64) BatchSlot {
   BatchRay ray;
-  std::uint32_t next;  // the child to go to: FastChild's word, or kDone
+  std::uint32_t next;  // the child to go to: the child's word, or kDone
   float t;             // what is farther is not looked for: t_max, then that of the closest hit
   std::uint32_t stack_size;
   std::uint32_t primitive;  // that is hit, or kInvalidId
@@ -48,8 +50,9 @@ inline constexpr std::size_t kSlack = 8;
 /// The memory of a batch. Not touched by constructors more than needed: batches may be small.
 class BatchMemory {
  public:
-  explicit BatchMemory(const FastBvh& bvh)
-      : capacity_(round_up((FastNode::kWidth - 1) * (std::size_t{bvh.depth} + 1) + 1 + kSlack)),
+  /// For a hierarchy of so many levels.
+  explicit BatchMemory(std::uint32_t depth)
+      : capacity_(round_up((FastNode::kWidth - 1) * (std::size_t{depth} + 1) + 1 + kSlack)),
         stride_(sizeof(BatchSlot) + capacity_ * (sizeof(float) + sizeof(std::uint32_t)) + kOddLine),
         memory_(kSlots * stride_ / sizeof(FastUnit)) {
     for (std::uint32_t s = 0; s < kSlots; ++s) {

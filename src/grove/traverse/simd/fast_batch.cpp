@@ -8,19 +8,19 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "grove/traverse/simd/batch_kernel-inl.h"
+#include "grove/traverse/simd/batch_run-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace grove {
 namespace HWY_NAMESPACE {
 namespace {
 
-void run_batch(const BatchQuery& query, BatchMemory& memory) {
-  if (query.results != nullptr) {
-    query.counts != nullptr ? BatchKernel<true, true>(query, memory).run() : BatchKernel<true, false>(query, memory).run();
-  } else {
-    query.counts != nullptr ? BatchKernel<false, true>(query, memory).run() : BatchKernel<false, false>(query, memory).run();
-  }
+void run_watertight(const BatchQuery<FastBvh>& query, BatchMemory& memory) {
+  run_batch<FastBvh, TriangleTest::watertight, false>(query, memory);
+}
+
+void run_fast(const BatchQuery<FastBvh>& query, BatchMemory& memory) {
+  run_batch<FastBvh, TriangleTest::fast, false>(query, memory);
 }
 
 }  // namespace
@@ -32,15 +32,24 @@ HWY_AFTER_NAMESPACE();
 namespace grove {
 namespace {
 
-HWY_EXPORT(run_batch);
-
-void run(const BatchQuery& query) {
-  if (query.count == 0) return;
-  BatchMemory memory(query.bvh);
-  HWY_DYNAMIC_DISPATCH(run_batch)(query, memory);
-}
+HWY_EXPORT(run_watertight);
+HWY_EXPORT(run_fast);
 
 }  // namespace
+
+template <>
+void trace_batch(const BatchQuery<FastBvh>& query, TriangleTest test) {
+  if (query.count == 0) return;
+  BatchMemory memory(query.scene.bvh.depth);
+  const bool is_watertight = test == TriangleTest::watertight;
+  if (query.counts != nullptr) {
+    // Counting is for study, and counts are the same on every instruction set but for the rounding of box tests: one is compiled.
+    is_watertight ? HWY_NAMESPACE::run_batch<FastBvh, TriangleTest::watertight, true>(query, memory)
+                  : HWY_NAMESPACE::run_batch<FastBvh, TriangleTest::fast, true>(query, memory);
+  } else {
+    is_watertight ? HWY_DYNAMIC_DISPATCH(run_watertight)(query, memory) : HWY_DYNAMIC_DISPATCH(run_fast)(query, memory);
+  }
+}
 
 std::vector<std::string> batch_targets() {
   std::vector<std::string> names;
@@ -59,14 +68,6 @@ void force_batch_target(std::string_view name) {
   std::string allowed;
   for (const std::string& target : batch_targets()) allowed += (allowed.empty() ? "" : ", ") + target;
   throw UsageError("this machine has no instruction set '" + std::string(name) + "'; it has " + allowed);
-}
-
-void trace_closest(const FastBvh& bvh, std::span<const Ray> rays, std::span<Hit> hits, std::span<TraversalCounts> counts) {
-  run({bvh, rays.data(), rays.size(), hits.data(), nullptr, counts.empty() ? nullptr : counts.data()});
-}
-
-void trace_any(const FastBvh& bvh, std::span<const Ray> rays, std::span<std::uint8_t> results, std::span<TraversalCounts> counts) {
-  run({bvh, rays.data(), rays.size(), nullptr, results.data(), counts.empty() ? nullptr : counts.data()});
 }
 
 }  // namespace grove

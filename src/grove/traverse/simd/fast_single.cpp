@@ -13,20 +13,22 @@ namespace grove {
 namespace HWY_NAMESPACE {
 namespace {
 
-bool single_closest(const FastBvh& bvh, const Ray& ray, Hit& hit) {
-  return SingleRay<false, false>::trace(bvh, ray, hit, nullptr);
+using Scene = FastScene<FastBvh>;
+
+bool watertight_closest(const Scene& scene, const Ray& ray, Hit& hit) {
+  return SingleRay<FastBvh, TriangleTest::watertight, false, false>::trace(scene, ray, hit, nullptr);
 }
 
-bool single_any(const FastBvh& bvh, const Ray& ray, Hit& hit) {
-  return SingleRay<true, false>::trace(bvh, ray, hit, nullptr);
+bool watertight_any(const Scene& scene, const Ray& ray, Hit& hit) {
+  return SingleRay<FastBvh, TriangleTest::watertight, true, false>::trace(scene, ray, hit, nullptr);
 }
 
-bool single_closest_counted(const FastBvh& bvh, const Ray& ray, Hit& hit, TraversalCounts* counts) {
-  return SingleRay<false, true>::trace(bvh, ray, hit, counts);
+bool fast_closest(const Scene& scene, const Ray& ray, Hit& hit) {
+  return SingleRay<FastBvh, TriangleTest::fast, false, false>::trace(scene, ray, hit, nullptr);
 }
 
-bool single_any_counted(const FastBvh& bvh, const Ray& ray, Hit& hit, TraversalCounts* counts) {
-  return SingleRay<true, true>::trace(bvh, ray, hit, counts);
+bool fast_any(const Scene& scene, const Ray& ray, Hit& hit) {
+  return SingleRay<FastBvh, TriangleTest::fast, true, false>::trace(scene, ray, hit, nullptr);
 }
 
 }  // namespace
@@ -38,38 +40,33 @@ HWY_AFTER_NAMESPACE();
 namespace grove {
 namespace {
 
-HWY_EXPORT(single_closest);
-HWY_EXPORT(single_any);
-HWY_EXPORT(single_closest_counted);
-HWY_EXPORT(single_any_counted);
+HWY_EXPORT(watertight_closest);
+HWY_EXPORT(watertight_any);
+HWY_EXPORT(fast_closest);
+HWY_EXPORT(fast_any);
+
+// Counting is for study: one instruction set is compiled.
+template <TriangleTest kTest, bool kAny>
+using Counting = HWY_NAMESPACE::SingleRay<FastBvh, kTest, kAny, true>;
 
 }  // namespace
 
-void trace_single_closest(const FastBvh& bvh, const Ray& ray, Hit& hit, TraversalCounts* counts) {
-  if (bvh.empty()) return;
-  if (counts == nullptr) {
-    if (HWY_DYNAMIC_DISPATCH(single_closest)(bvh, ray, hit)) return;
-    NoCounter counter;
-    trace_closest(bvh, ray, hit, counter);
-  } else {
-    if (HWY_DYNAMIC_DISPATCH(single_closest_counted)(bvh, ray, hit, counts)) return;
-    Counter counter(*counts);
-    trace_closest(bvh, ray, hit, counter);
-  }
+template <>
+bool run_single_closest(const FastScene<FastBvh>& scene, TriangleTest test, const Ray& ray, Hit& hit, TraversalCounts* counts) {
+  if (test == TriangleTest::fast)
+    return counts == nullptr ? HWY_DYNAMIC_DISPATCH(fast_closest)(scene, ray, hit)
+                             : Counting<TriangleTest::fast, false>::trace(scene, ray, hit, counts);
+  return counts == nullptr ? HWY_DYNAMIC_DISPATCH(watertight_closest)(scene, ray, hit)
+                           : Counting<TriangleTest::watertight, false>::trace(scene, ray, hit, counts);
 }
 
-bool trace_single_any(const FastBvh& bvh, const Ray& ray, TraversalCounts* counts) {
-  if (bvh.empty()) return false;
-  Hit hit;
-  hit.t = ray.t_max;
-  if (counts == nullptr) {
-    if (HWY_DYNAMIC_DISPATCH(single_any)(bvh, ray, hit)) return static_cast<bool>(hit);
-    NoCounter counter;
-    return trace_any(bvh, ray, counter);
-  }
-  if (HWY_DYNAMIC_DISPATCH(single_any_counted)(bvh, ray, hit, counts)) return static_cast<bool>(hit);
-  Counter counter(*counts);
-  return trace_any(bvh, ray, counter);
+template <>
+bool run_single_any(const FastScene<FastBvh>& scene, TriangleTest test, const Ray& ray, Hit& hit, TraversalCounts* counts) {
+  if (test == TriangleTest::fast)
+    return counts == nullptr ? HWY_DYNAMIC_DISPATCH(fast_any)(scene, ray, hit)
+                             : Counting<TriangleTest::fast, true>::trace(scene, ray, hit, counts);
+  return counts == nullptr ? HWY_DYNAMIC_DISPATCH(watertight_any)(scene, ray, hit)
+                           : Counting<TriangleTest::watertight, true>::trace(scene, ray, hit, counts);
 }
 
 }  // namespace grove

@@ -2,18 +2,57 @@
 
 // One ray at a time through the hierarchy of the fast path, by the kernels of all instruction sets; fast_batch.h says how one is chosen.
 
-#include "grove/accel/fast_bvh.h"
 #include "grove/geometry/hit.h"
 #include "grove/geometry/ray.h"
 #include "grove/geometry/traversal_counts.h"
+#include "grove/traverse/fast_traversal.h"
+#include "grove/traverse/simd/triangle_test.h"
 
 namespace grove {
 
-/// Closest hit of a ray that is traceable. `hit.t` must start as the ray's t_max; what is found is what brute force finds, bit for bit. `counts`
-/// is null, or what is counted is added to it. Any number of threads may call it.
-void trace_single_closest(const FastBvh& bvh, const Ray& ray, Hit& hit, TraversalCounts* counts);
+/// Traces a ray by the best kernel that this machine has; `hit.t` is its t_max. Returns false where the ray's numbers or the depth of the hierarchy
+/// are out of the kernels' range. `Bvh` is FastBvh or CompressedFastBvh.
+template <typename Bvh>
+bool run_single_closest(const FastScene<Bvh>& scene, TriangleTest test, const Ray& ray, Hit& hit, TraversalCounts* counts);
+template <>
+bool run_single_closest(const FastScene<FastBvh>& scene, TriangleTest test, const Ray& ray, Hit& hit, TraversalCounts* counts);
+template <>
+bool run_single_closest(const FastScene<CompressedFastBvh>& scene, TriangleTest test, const Ray& ray, Hit& hit, TraversalCounts* counts);
+/// The same for any hit, whose primitive is 0.
+template <typename Bvh>
+bool run_single_any(const FastScene<Bvh>& scene, TriangleTest test, const Ray& ray, Hit& hit, TraversalCounts* counts);
+template <>
+bool run_single_any(const FastScene<FastBvh>& scene, TriangleTest test, const Ray& ray, Hit& hit, TraversalCounts* counts);
+template <>
+bool run_single_any(const FastScene<CompressedFastBvh>& scene, TriangleTest test, const Ray& ray, Hit& hit, TraversalCounts* counts);
+
+/// Closest hit of a ray that is traceable. `hit.t` must start as the ray's t_max; with TriangleTest::watertight what is found is what brute force finds,
+/// bit for bit. `counts` is null, or what is counted is added to it. Any number of threads may call it.
+template <typename Bvh>
+void trace_single_closest(const FastScene<Bvh>& scene, TriangleTest test, const Ray& ray, Hit& hit, TraversalCounts* counts) {
+  if (scene.bvh.empty() || run_single_closest(scene, test, ray, hit, counts)) return;
+  if (counts == nullptr) {
+    NoCounter counter;
+    trace_closest(scene, ray, hit, counter);
+  } else {
+    Counter counter(*counts);
+    trace_closest(scene, ray, hit, counter);
+  }
+}
 
 /// Whether anything is hit within [t_min, t_max]. Otherwise as trace_single_closest.
-[[nodiscard]] bool trace_single_any(const FastBvh& bvh, const Ray& ray, TraversalCounts* counts);
+template <typename Bvh>
+[[nodiscard]] bool trace_single_any(const FastScene<Bvh>& scene, TriangleTest test, const Ray& ray, TraversalCounts* counts) {
+  if (scene.bvh.empty()) return false;
+  Hit hit;
+  hit.t = ray.t_max;
+  if (run_single_any(scene, test, ray, hit, counts)) return static_cast<bool>(hit);
+  if (counts == nullptr) {
+    NoCounter counter;
+    return trace_any(scene, ray, counter);
+  }
+  Counter counter(*counts);
+  return trace_any(scene, ray, counter);
+}
 
 }  // namespace grove

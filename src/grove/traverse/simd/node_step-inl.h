@@ -33,11 +33,12 @@ struct Interval {
   V far;
 };
 
+// Where the ray is within the slabs of a node's children.
 template <typename D, typename V = hn::Vec<D>>
 HWY_INLINE Interval<V> slabs(D d, const FastNode& node, const BatchSlot& slot, std::size_t first) {
   V near = hn::Set(d, slot.ray.t_min);
   V far = hn::Set(d, slot.t);
-  const float* const rows = &node.planes[0][0][0];
+  const float* const rows = &node.bounds.planes[0][0][0];
   for (int axis = 0; axis < 3; ++axis) {
     const V inverse = hn::Set(d, slot.ray.inverse[axis]);
     const V near_planes = hn::LoadU(d, rows + slot.ray.rows.near[axis] + first);
@@ -48,8 +49,46 @@ HWY_INLINE Interval<V> slabs(D d, const FastNode& node, const BatchSlot& slot, s
   return {near, far};
 }
 
-template <bool kAny, typename D, typename V>
-HWY_INLINE void push_in_one(D d, const FastNode& node, BatchSlot& slot, std::size_t capacity, V near, V far) {
+// A plane is met at  (origin + step * scale) * inverse + offset,  of which all but the step is the same for the children. That rounds once more than
+// planes in floats do, by 1 u of the reach: ray_setup-inl.h has seven to spare.
+template <typename D, typename V = hn::Vec<D>>
+HWY_INLINE Interval<V> slabs(D d, const CompressedNode& node, const BatchSlot& slot, std::size_t first) {
+  const hn::RebindToUnsigned<D> du;
+  const hn::RebindToSigned<D> di;
+  const hn::Rebind<std::uint8_t, D> d8;
+  V near = hn::Set(d, slot.ray.t_min);
+  V far = hn::Set(d, slot.t);
+  const std::uint8_t* const rows = &node.steps[0][0][0];
+  for (int axis = 0; axis < 3; ++axis) {
+    const V inverse = hn::Set(d, slot.ray.inverse[axis]);
+    const V origin = hn::Set(d, node.origin[axis]);
+    const V scale = hn::BitCast(d, hn::Set(du, std::uint32_t{node.scale[axis]} << 16));
+    const V step = hn::Mul(scale, inverse);
+    const V near_steps = hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(d8, rows + slot.ray.rows.near[axis] + first)));
+    const V far_steps = hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(d8, rows + slot.ray.rows.far[axis] + first)));
+    near = hn::Max(near, hn::MulAdd(near_steps, step, hn::MulAdd(origin, inverse, hn::Set(d, slot.ray.near_offset[axis]))));
+    far = hn::Min(far, hn::MulAdd(far_steps, step, hn::MulAdd(origin, inverse, hn::Set(d, slot.ray.far_offset[axis]))));
+  }
+  return {near, far};
+}
+
+// Which places of a node are used, as they are and as its orders have them. A whole box tells by itself; one on a grid does not where the grid is
+// finer than what rays are padded by.
+HWY_INLINE std::uint32_t used_places(const FastNode& /*node*/) {
+  return 0xffU;
+}
+HWY_INLINE std::uint32_t used_places(const CompressedNode& node) {
+  return node.used;
+}
+HWY_INLINE std::uint32_t used_places_in_order(const FastNode& /*node*/) {
+  return 0xffU;
+}
+HWY_INLINE std::uint32_t used_places_in_order(const CompressedNode& node) {
+  return node.used_in_order;
+}
+
+template <bool kAny, typename Node, typename D, typename V>
+HWY_INLINE void push_in_one(D d, const Node& node, BatchSlot& slot, std::size_t capacity, V near, V far) {
   const hn::RebindToUnsigned<D> du;
   const auto children = hn::LoadU(du, reinterpret_cast<const std::uint32_t*>(node.child));
   std::uint32_t* const stack_child = slot.stack_child(capacity);
@@ -57,13 +96,13 @@ HWY_INLINE void push_in_one(D d, const FastNode& node, BatchSlot& slot, std::siz
   std::uint32_t met = 0;
   if constexpr (kAny) {
     // Any hit needs no order: it costs more than it saves.
-    met = bits_of(d, hn::Le(near, far));
+    met = bits_of(d, hn::Le(near, far)) & used_places(node);
     hn::StoreU(look_up(du, children, front_places(du, met)), du, stack_child + size);
   } else {
-    const auto order = hn::Set(du, node.order[slot.ray.rows.octant]) >> hn::Mul(hn::Iota(du, 0), hn::Set(du, 3));
+    const auto order = hn::Set(du, node.order_for(slot.ray.rows.octant)) >> hn::Mul(hn::Iota(du, 0), hn::Set(du, 3));
     // The sign of the difference goes through the same order as the children. Unused places have a difference of minus infinity.
     const V slack = look_up(d, hn::Sub(far, near), order);
-    met = ~bits_of(d, hn::Lt(slack, hn::Zero(d))) & 0xffU;
+    met = ~bits_of(d, hn::Lt(slack, hn::Zero(d))) & used_places_in_order(node);
     const auto places = look_up(du, order, front_places(du, met));
     hn::StoreU(look_up(d, near, places), d, slot.stack_t() + size);
     hn::StoreU(look_up(du, children, places), du, stack_child + size);
@@ -71,8 +110,9 @@ HWY_INLINE void push_in_one(D d, const FastNode& node, BatchSlot& slot, std::siz
   slot.stack_size = size + static_cast<std::uint32_t>(std::popcount(met));
 }
 
-HWY_INLINE void push_one_by_one(const FastNode& node, BatchSlot& slot, std::size_t capacity, const float* near, std::uint32_t met) {
-  const std::uint32_t order = node.order[slot.ray.rows.octant];
+template <typename Node>
+HWY_INLINE void push_one_by_one(const Node& node, BatchSlot& slot, std::size_t capacity, const float* near, std::uint32_t met) {
+  const std::uint32_t order = node.order_for(slot.ray.rows.octant);
   std::uint32_t* const stack_child = slot.stack_child(capacity);
   std::uint32_t size = slot.stack_size;
   for (int k = 0; k < FastNode::kWidth; ++k) {
@@ -85,8 +125,8 @@ HWY_INLINE void push_one_by_one(const FastNode& node, BatchSlot& slot, std::size
 }
 
 // Pushes the children that are met, the nearest last. `capacity` is that of the slot's stack.
-template <bool kAny>
-HWY_INLINE void step_through(const FastNode& node, BatchSlot& slot, std::size_t capacity) {
+template <bool kAny, typename Node>
+HWY_INLINE void step_through(const Node& node, BatchSlot& slot, std::size_t capacity) {
   const hn::CappedTag<float, FastNode::kWidth> d;
   if constexpr (hn::MaxLanes(d) == FastNode::kWidth) {
     const auto [near, far] = slabs(d, node, slot, 0);
@@ -99,7 +139,7 @@ HWY_INLINE void step_through(const FastNode& node, BatchSlot& slot, std::size_t 
       hn::Store(near, d, near_of + first);
       met |= bits_of(d, hn::Le(near, far)) << first;
     }
-    push_one_by_one(node, slot, capacity, near_of, met);
+    push_one_by_one(node, slot, capacity, near_of, met & used_places(node));
   }
 }
 

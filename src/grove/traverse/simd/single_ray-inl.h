@@ -17,9 +17,11 @@
 
 #include "grove/traverse/fast_traversal.h"
 #include "grove/traverse/simd/batch_slot.h"
+#include "grove/traverse/simd/block_hits-inl.h"
 #include "grove/traverse/simd/block_test-inl.h"
 #include "grove/traverse/simd/node_step-inl.h"
 #include "grove/traverse/simd/ray_setup-inl.h"
+#include "grove/traverse/simd/triangle_test.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace grove {
@@ -28,16 +30,20 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // One ray with nothing else in flight. kAny: any hit instead of the closest. kCounts: with counters.
-template <bool kAny, bool kCounts>
+template <typename Bvh, TriangleTest kTest, bool kAny, bool kCounts>
 class SingleRay {
+  using Node = typename Bvh::Node;
+  using Block = typename Bvh::Block;
+
  public:
   // `hit.t` is t_max; a hit is written there, for kAny its primitive as 0. Returns false where the ray or the hierarchy is none for this kernel.
-  HWY_INLINE static bool trace(const FastBvh& bvh, const Ray& ray, Hit& hit, TraversalCounts* counts) {
+  HWY_INLINE static bool trace(const FastScene<Bvh>& scene, const Ray& ray, Hit& hit, TraversalCounts* counts) {
+    const Bvh& bvh = scene.bvh;
     if (bvh.depth > kMostDepth) return false;
     RaySetup<4> setup(bvh.bounds);
     setup.prepare(ray);
     if (!setup.is_regular(0)) return false;
-    SingleRay single(bvh.units(), hit, counts);
+    SingleRay single(scene, hit, counts);
     setup.copy(0, single.memory_.slot.ray);
     single.run();
     return true;
@@ -55,7 +61,8 @@ class SingleRay {
   };
   static_assert(offsetof(Memory, stack_t) == sizeof(BatchSlot));
 
-  HWY_INLINE SingleRay(const FastUnit* units, Hit& hit, TraversalCounts* counts) : units_(units), hit_(hit), counts_(counts) {
+  HWY_INLINE SingleRay(const FastScene<Bvh>& scene, Hit& hit, TraversalCounts* counts)
+      : units_(scene.bvh.units()), vertices_(scene.vertices), hit_(hit), counts_(counts) {
     memory_.slot.t = hit.t;
     memory_.slot.stack_size = 1;
     memory_.stack_t[0] = -std::numeric_limits<float>::infinity();
@@ -68,8 +75,8 @@ class SingleRay {
     while (true) {
       if (word >> 31 == 0) {
         if constexpr (kCounts) ++counts_->nodes_visited;
-        if (step(place_of<FastNode>(units_, word), word)) continue;
-      } else if (word == kDone || test(place_of<TriangleBlock>(units_, word))) {
+        if (step(place_of<Node>(units_, word), word)) continue;
+      } else if (word == kDone || test(gathered(place_of<Block>(units_, word), vertices_))) {
         return;
       }
       word = memory_.stack_child[--slot.stack_size];
@@ -82,7 +89,7 @@ class SingleRay {
 
   // Goes to the nearest child that is met and pushes the others; returns false where none is. Mostly it is one or two: then the way to the next
   // node is short, and the branches tell the processor where it leads before the slabs are done.
-  HWY_INLINE bool step(const FastNode& node, std::uint32_t& word) {
+  HWY_INLINE bool step(const Node& node, std::uint32_t& word) {
     BatchSlot& slot = memory_.slot;
     HWY_ALIGN float near_of[FastNode::kWidth];
     const hn::CappedTag<float, FastNode::kWidth> d;
@@ -92,6 +99,7 @@ class SingleRay {
       if constexpr (!kAny) hn::Store(near, d, near_of + first);
       met |= bits_of(d, hn::Le(near, far)) << first;
     }
+    met &= used_places(node);
     if (met == 0) return false;
     std::uint32_t place = static_cast<std::uint32_t>(std::countr_zero(met));
     met &= met - 1;
@@ -116,7 +124,7 @@ class SingleRay {
   }
 
   // In the node's order for the ray, the nearest last.
-  HWY_INLINE void push_all(const FastNode& node, const float* near_of, std::uint32_t met) {
+  HWY_INLINE void push_all(const Node& node, const float* near_of, std::uint32_t met) {
     if constexpr (kAny) {
       for (; met != 0; met &= met - 1)
         memory_.stack_child[memory_.slot.stack_size++] = std::bit_cast<std::uint32_t>(node.child[std::countr_zero(met)]);
@@ -131,6 +139,18 @@ class SingleRay {
     if constexpr (kCounts) {
       counts_->primitives_tested += block.count();
       ++counts_->leaves_entered;
+    }
+    if constexpr (kTest == TriangleTest::fast) {
+      FourHits hits;
+      test_block(slot.ray, slot.t, block, hits);
+      if (hits.places == 0) return false;
+      if constexpr (kAny) {
+        hit_.primitive = 0;
+        return true;
+      }
+      take_closest(hits, block, hit_);
+      slot.t = hit_.t;
+      return false;
     }
     const BlockFilter filter = filter_block<kAny>(slot.ray, slot.t, block);
     if constexpr (kAny) {
@@ -161,6 +181,7 @@ class SingleRay {
   }
 
   const FastUnit* const units_;
+  const Vec3* const vertices_;
   Hit& hit_;
   TraversalCounts* const counts_;
   Memory memory_;

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace grove::app {
+
+/// Whether a picture's name has a place for the number of its frame: %d, or %04d for four digits with zeros before. Throws UsageError when it has two, or
+/// another % (which is written %%).
+[[nodiscard]] bool has_frame_number(const std::string& name);
+
+/// The name with the number in its place.
+[[nodiscard]] std::string frame_name(const std::string& name, std::uint32_t number);
+
+}  // namespace grove::app
