@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "display_options.h"
 #include "grove/base/error.h"
 #include "grove/lab/text_table.h"
 #include "grove/render/saved/merge_films.h"
 #include "picture_files.h"
+#include "reference_picture.h"
 #include "session.h"
 #include "verbs.h"
 
@@ -16,16 +18,21 @@ namespace {
 struct MergeOptions : CommonOptions {
   std::vector<std::filesystem::path> parts;
   std::vector<std::string> pictures;
-  DisplaySettings display;
+  DisplayOptions display;
+  ReferencePicture reference;
   bool allows_gaps = false;
 };
 
-int run(const MergeOptions& options) {
+int run(MergeOptions& options) {
   const Console console(options.quiet);
   check_pictures(options.pictures);
+  parse_display(options.display);
   if (options.allows_gaps && has_film(options.pictures)) {
     throw UsageError("--partial: a .film is written of whole pictures only; write an .exr or .png, or leave --partial out");
   }
+  // Before the films are read: the headers are quick to read, and all of one size or there is no picture.
+  const FilmHeader first = read_film_header(options.parts.front());
+  options.reference.read(first.width, first.height);
   console.status(fmt::format("merging {} films", options.parts.size()));
   MergedFilm merged = merge_films(options.parts);
   if (!merged.missing.empty()) {
@@ -43,7 +50,8 @@ int run(const MergeOptions& options) {
   console.say(fmt::format("picture    {} x {} pixels, {} samples{}, from {} films; {} rays in {} of work", header.width, header.height,
                           header.samples_per_pixel, header.noise.is_on() ? " at most" : " each", options.parts.size(),
                           with_separators(header.rays_traced), duration(header.seconds)));
-  write_pictures(options.pictures, result, options.display, header, console);
+  write_pictures(options.pictures, result, {.display = options.display.settings}, header, console);
+  options.reference.compare(result.colours(), options.display.settings, console);
   return 0;
 }
 
@@ -57,10 +65,8 @@ Verb add_merge(CLI::App& program) {
       ->required()
       ->type_name("PICTURE")
       ->allow_extra_args(false);
-  in_range(verb.add_option("--exposure", options->display.exposure, "Stops by which a path-traced .png is brightened")
-               ->type_name("STOPS")
-               ->capture_default_str(),
-           -64.0, 64.0);
+  add_display(verb, options->display);
+  options->reference.add_option(verb);
   verb.add_flag("--partial", options->allows_gaps, "Write the picture though parts of it are missing; they are black or have more noise");
   add_threads(verb, *options);
   add_quiet(verb, *options);

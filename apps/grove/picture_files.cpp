@@ -35,6 +35,10 @@ bool has_film(const std::vector<std::string>& paths) {
   return std::ranges::any_of(paths, [](const std::string& path) { return extension_of(path) == ".film"; });
 }
 
+bool has_exr(const std::vector<std::string>& paths) {
+  return std::ranges::any_of(paths, [](const std::string& path) { return extension_of(path) == ".exr"; });
+}
+
 FilmHeader film_header(const std::string& source, const Scene& scene, const SceneAccelerator& accelerator, const RenderSettings& settings) {
   const View view = choose_view(scene, settings);
   FilmHeader header;
@@ -57,15 +61,15 @@ FilmHeader with_result(FilmHeader header, const RenderResult& result) {
   return header;
 }
 
-void write_pictures(const std::vector<std::string>& paths, const RenderResult& result, const DisplaySettings& display,
+void write_pictures(const std::vector<std::string>& paths, const RenderResult& result, const PictureSettings& settings,
                     const FilmHeader& header, const Console& console) {
   for (const std::string& path : paths) {
     console.status("writing " + path);
     const std::string extension = extension_of(path);
     if (extension == ".exr") {
-      write_exr(result.film, path);
+      write_exr(result, settings.layers, path);
     } else if (extension == ".png") {
-      write_png(result, display, path);
+      write_png(result, settings.display, path);
     } else {
       write_film(with_result(header, result), result.film, path);
     }

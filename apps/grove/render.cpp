@@ -10,6 +10,8 @@
 #include <optional>
 
 #include "checkpoint.h"
+#include "denoise_options.h"
+#include "display_options.h"
 #include "frame_names.h"
 #include "frame_options.h"
 #include "grove/base/error.h"
@@ -17,9 +19,11 @@
 #include "grove/lab/structure_report.h"
 #include "grove/lab/text_table.h"
 #include "grove/render/view.h"
+#include "layer_options.h"
 #include "picture_files.h"
 #include "picture_part_options.h"
 #include "progress_bar.h"
+#include "reference_picture.h"
 #include "render_frames.h"
 #include "sampling_options.h"
 #include "sampling_report.h"
@@ -37,9 +41,12 @@ struct RenderOptions : CommonOptions {
   std::vector<std::string> pictures;
   std::string integrator = "path";
   RenderSettings settings;
-  DisplaySettings display;
   SamplingOptions sampling;
   const CLI::Option* samples_per_pixel = nullptr;
+  DisplayOptions display;
+  LayerOptions layers;
+  DenoiseOptions denoise;
+  ReferencePicture reference;
   std::optional<std::string> tile;
   std::optional<std::string> samples;
   std::filesystem::path checkpoint;
@@ -54,7 +61,10 @@ struct RenderOptions : CommonOptions {
 void check_frames(const RenderOptions& options) {
   if (!options.checkpoint.empty())
     throw UsageError("--checkpoint: saves one picture, not frames; leave it out, and go on after an interruption with --resume");
+  if (options.reference.is_named()) throw UsageError("--compare: compares one picture, not frames; leave it out");
   if (options.frames.shutter <= 0.0) return;
+  if (options.denoise.way != Denoise::off)
+    throw UsageError("--denoise: does not go with --shutter, whose frames show several times at once; leave one out");
   if (options.samples)
     throw UsageError("--samples: does not go with --shutter, which spreads the samples over time; render parts with --tile");
   if (options.sampling.noise || options.sampling.time_limit)
@@ -69,12 +79,20 @@ void check_command(RenderOptions& options) {
   if (options.asks_single_rays) options.settings.ray_calls = RayCalls::single;
   if (options.tile) parse_tile(*options.tile, options.settings.part);
   if (options.samples) parse_samples(*options.samples, options.settings.samples_per_pixel, options.settings.part);
+  parse_display(options.display);
+  parse_layers(options.layers);
+  if (has_exr(options.pictures)) ask_for_layers(options.layers, options.settings.gathering);
+  parse_denoise(options.denoise, options.settings);
   options.plan = plan_frames(options.frames, options.settings.camera, options.pictures);
   std::vector<std::string> first;
   first.reserve(options.pictures.size());
   for (const std::string& picture : options.pictures) first.push_back(frame_name(picture, options.plan.range.first));
   check_pictures(first);
-  if (options.plan.is_sequence) check_frames(options);
+  if (options.plan.is_sequence) {
+    check_frames(options);
+  } else if (options.denoise.way == Denoise::temporal) {
+    throw UsageError("--denoise: temporal needs frames that follow each other; ask for some by --frames, or use spatial");
+  }
   if (!options.plan.is_sequence) options.pictures = std::move(first);
   for (const std::string& picture : options.pictures) {
     const std::filesystem::path path = std::filesystem::path(picture).lexically_normal();
@@ -86,7 +104,7 @@ void check_command(RenderOptions& options) {
 }
 
 void write_figures(const RenderOptions& options, const RenderResult& result, const SamplingReport& report,
-                   const StructureStatistics& statistics, const Scene& scene, const std::string& spec) {
+                   const StructureStatistics& statistics, const Scene& scene, const std::string& spec, double denoise_seconds) {
   nlohmann::ordered_json json = structure_json(spec, statistics, arena_threads());
   json["scene"] = options.scene;
   json["load_seconds"] = scene.load_seconds;
@@ -101,11 +119,14 @@ void write_figures(const RenderOptions& options, const RenderResult& result, con
   json["render_seconds"] = result.seconds;
   json["mrays_per_s"] = result.seconds > 0.0 ? 1e-6 * static_cast<double>(result.rays_traced) / result.seconds : 0.0;
   report.add_to(json);
+  json["denoise"] = options.denoise.text;
+  json["denoise_seconds"] = denoise_seconds;
   json["completed_fraction"] = result.completed_fraction;
   json["interrupted"] = result.interrupted;
   json["tiles"] = {{"share", result.part.share}, {"of", result.part.share_count}};
   json["samples"] = {{"first", result.part.first_sample}, {"end", result.part.end_sample}};
   json["images"] = options.pictures;
+  if (auto comparison = options.reference.figures(); !comparison.is_null()) json["comparison"] = std::move(comparison);
   write_text_file(options.json, json.dump(2) + "\n");
 }
 
@@ -114,10 +135,11 @@ int run_frames(const RenderOptions& options, Interrupts& interrupts, const Conso
                          const Scene& scene, const SceneAccelerator& accelerator) {
     FilmHeader header;
     if (has_film(files)) header = film_header(options.scene, scene, accelerator, settings);
-    write_pictures(files, result, options.display, header, Console(true));
+    write_pictures(files, result, {.display = options.display.settings, .layers = options.layers.layers}, header, Console(true));
   };
-  return render_frames({options, options.frames, options.plan, options.pictures, options.settings, options.integrator, write}, interrupts,
-                       console);
+  return render_frames(
+      {options, options.frames, options.plan, options.pictures, options.settings, options.integrator, options.denoise, write}, interrupts,
+      console);
 }
 
 // The scene as it is read, or at the time that is asked for; a viewpoint goes into the settings.
@@ -138,6 +160,8 @@ int run(RenderOptions& options, Interrupts& interrupts) {
   Checkpoint checkpoint(options.checkpoint, options.restarts, options.checkpoint_interval);
 
   const Scene scene = load_for_picture(options, console);
+  const View view = choose_view(scene, options.settings);
+  options.reference.read(view.width, view.height);
   const BuiltStructure built = build_structure(scene, spec, console);
   FilmHeader header;
   if (checkpoint.is_on() || has_film(options.pictures)) header = film_header(options.scene, scene, built.accelerator, options.settings);
@@ -153,8 +177,10 @@ int run(RenderOptions& options, Interrupts& interrupts) {
   console.say(fmt::format("picture    {} x {} pixels, {}, {}", result.film.width(), result.film.height(), report.samples(), report.work()));
   if (const std::string remark = report.remark(); !remark.empty()) console.say("noise      " + remark);
   checkpoint.finish(result, console);
-  write_pictures(options.pictures, result, options.display, header, console);
-  if (!options.json.empty()) write_figures(options, result, report, built.statistics, scene, spec);
+  const double denoise_seconds = denoise_still(options.denoise, result, console);
+  write_pictures(options.pictures, result, {.display = options.display.settings, .layers = options.layers.layers}, header, console);
+  options.reference.compare(result.colours(), options.display.settings, console);
+  if (!options.json.empty()) write_figures(options, result, report, built.statistics, scene, spec, denoise_seconds);
   checkpoint.rethrow_failure();
   if (!result.interrupted) return 0;
   fmt::print(stderr, "grove render: interrupted; wrote what was finished, {:.1f} % of the samples{}\n", 100.0 * result.completed_fraction,
@@ -202,10 +228,10 @@ Verb add_render(CLI::App& program) {
   add_sampling(verb, options->sampling);
   verb.add_flag("--single-rays", options->asks_single_rays,
                 "Ask the structure about one ray after another instead of batches: slower, the same picture");
-  in_range(verb.add_option("--exposure", options->display.exposure, "Stops by which a path-traced .png is brightened")
-               ->type_name("STOPS")
-               ->capture_default_str(),
-           -64.0, 64.0);
+  add_display(verb, options->display);
+  add_layers(verb, options->layers);
+  add_denoise(verb, options->denoise);
+  options->reference.add_option(verb);
   verb.add_option("--tile", options->tile,
                   "Render the i-th of N shares of the picture's tiles, 1/N to N/N; 'grove merge' puts films together")
       ->type_name("i/N");
@@ -235,6 +261,7 @@ Verb add_render(CLI::App& program) {
       "  grove render scene.glb -o scene.png --noise 0.02 --time-limit 600\n"
       "  grove render scene.glb -o part2.film --tile 2/4\n"
       "  grove render scene.glb -o frame.%04d.png --frames 0:120 --fps 30 --spp 16\n"
+      "  grove render scene.glb -o clean.png --spp 8 --denoise spatial --compare scene.exr\n"
       "  grove render builtin:sphereflake -o cost.png --integrator cost --structure bvh --spp 4");
   return {&verb, [options](Interrupts& interrupts) { return with_threads(options->threads, [&] { return run(*options, interrupts); }); }};
 }

@@ -82,7 +82,11 @@ Json update_json(const UpdateReport& report) {
 class Sequence {
  public:
   Sequence(const FrameCommand& command, Interrupts& interrupts, const Console& console)
-      : command_(command), interrupts_(interrupts), console_(console), scene_(load_moving(command.common, command.frames, console)) {}
+      : command_(command),
+        interrupts_(interrupts),
+        console_(console),
+        scene_(load_moving(command.common, command.frames, console)),
+        denoiser_(command.denoise) {}
 
   int run() {
     prepare();
@@ -90,7 +94,11 @@ class Sequence {
     FrameRenderer renderer(scene_, command_.common.structure, command_.plan.policy);
     const FrameRange& range = command_.plan.range;
     for (std::uint32_t number = range.first; number < range.end && !interrupts_.requested(); ++number) {
-      if (!is_there(number)) make(renderer, number);
+      if (is_there(number)) {
+        denoiser_.skip();
+      } else {
+        make(renderer, number);
+      }
     }
     if (!command_.common.json.empty()) write_json();
     if (finished_ == range.count()) return 0;
@@ -145,9 +153,11 @@ class Sequence {
       };
     }
     Frame frame;
+    RenderSettings settings = settings_;
+    denoiser_.prepare(settings, number);
     {
       ProgressBar bar(fmt::format("frame {}", number), "samples", 1.0, command_.common.quiet);
-      frame = renderer.render(settings_, exposure_, bar.reporter(interrupts_.token()), viewpoint);
+      frame = renderer.render(settings, exposure_, bar.reporter(interrupts_.token()), viewpoint);
     }
     if (frame.picture.interrupted) return;
     for (const std::string& warning : frame.picture.warnings) {
@@ -155,17 +165,18 @@ class Sequence {
       warnings_.push_back(warning);
       console_.warn(warning);
     }
+    if (viewpoint) settings.viewpoint = viewpoint(exposure_.time);
+    const double denoise_seconds = denoiser_.finish(frame.picture, settings, scene_.scene());
     const std::vector<std::string> files = files_of(number);
     const Timer writing;
-    RenderSettings settings = settings_;
-    if (viewpoint) settings.viewpoint = viewpoint(exposure_.time);
     command_.write(files, frame.picture, settings, scene_.scene(), *renderer.accelerator());
     const double write_seconds = writing.seconds();
     ++finished_;
-    report(frame, number, time, files, write_seconds);
+    report(frame, number, time, files, denoise_seconds, write_seconds);
   }
 
-  void report(const Frame& frame, std::uint32_t number, double time, const std::vector<std::string>& files, double write_seconds) {
+  void report(const Frame& frame, std::uint32_t number, double time, const std::vector<std::string>& files, double denoise_seconds,
+              double write_seconds) {
     const RenderResult& picture = frame.picture;
     const double mrays = picture.seconds > 0.0 ? 1e-6 * static_cast<double>(picture.rays_traced) / picture.seconds : 0.0;
     const double update_seconds = frame.is_built ? frame.build_seconds : frame.update.seconds;
@@ -185,6 +196,7 @@ class Sequence {
                  {"prepare_seconds", picture.prepare_seconds},
                  {"trace_seconds", picture.trace_seconds},
                  {"shade_seconds", picture.shade_seconds},
+                 {"denoise_seconds", denoise_seconds},
                  {"write_seconds", write_seconds},
                  {"rays", picture.rays_traced},
                  {"mrays_per_s", mrays},
@@ -220,6 +232,7 @@ class Sequence {
                        {"max_depth", settings_.max_depth},
                        {"seed", settings_.seed},
                        {"integrator", command_.integrator},
+                       {"denoise", command_.denoise.text},
                        {"shutter", command_.frames.shutter},
                        {"shutter_times", exposure_.duration > 0.0 ? exposure_.times : 1},
                        {"frames", rows_}};
@@ -230,6 +243,7 @@ class Sequence {
   Interrupts& interrupts_;
   const Console& console_;
   AnimatedScene scene_;
+  FrameDenoiser denoiser_;
   RenderSettings settings_;
   std::optional<Viewpoint> viewpoint_;
   Box bounds_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "console.h"
+#include "denoise_options.h"
 #include "frame_options.h"
 #include "interrupts.h"
 #include "options.h"
@@ -20,6 +21,7 @@ struct FrameCommand {
   const std::vector<std::string>& pictures;
   const RenderSettings& settings;
   const std::string& integrator;
+  const DenoiseOptions& denoise;
   /// Writes a picture to these files, and says nothing. The settings are those it was made with.
   std::function<void(const std::vector<std::string>& files, const RenderResult&, const RenderSettings&, const Scene&,
                      const SceneAccelerator&)>

@@ -111,6 +111,39 @@ TEST(Render, HasEachIntegrator) {
   }
 }
 
+TEST(Render, ComparesWithAnotherPicture) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(run_command(directory, small_with({"-o", "a.exr", "-o", "a.film"})).exit_code, 0);
+  const CommandResult same = run_command(directory, small_with({"-o", "b.exr", "--compare", "a.exr", "--json", "b.json"}));
+  EXPECT_EQ(same.exit_code, 0) << same.err;
+  EXPECT_THAT(same.out, HasSubstr("RMSE 0, relMSE 0, FLIP 0, HDR-FLIP 0"));
+  EXPECT_EQ(nlohmann::json::parse(read_file(directory / "b.json")).at("comparison").at("rmse"), 0.0);
+  EXPECT_THAT(run_command(directory, {"merge", "a.film", "-o", "m.png", "--compare", "a.exr"}).out, HasSubstr("RMSE 0,"));
+  const CommandResult other =
+      run_command(directory, {"render", "builtin:cornell", "-o", "c.exr", "--compare", "a.exr", "--width", "25", "--height", "16"});
+  expect_failure(other, 1);
+  EXPECT_THAT(other.err, HasSubstr("24 x 16"));
+  EXPECT_THAT(other.err, HasSubstr("25 x 16"));
+  expect_failure(run_command(directory, small_with({"-o", "c.exr", "--compare", "none.exr"})), 1);
+}
+
+TEST(Render, DenoisesAndKeepsTheFilm) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(run_command(directory, small_with({"-o", "a.film"})).exit_code, 0);
+  const CommandResult result =
+      run_command(directory, small_with({"-o", "b.exr", "-o", "b.film", "--denoise", "spatial", "--layers", "all"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("denoised"));
+  const std::string exr = read_file(directory / "b.exr");
+  for (const char* name : {"noisy.R", "depth.Z", "motion.U", "variance.Y", "id.primitive"}) EXPECT_THAT(exr, HasSubstr(name));
+  // But for the seconds in the header, which are of this run.
+  const std::string film = read_file(directory / "a.film");
+  const std::string other = read_file(directory / "b.film");
+  const std::size_t pixels = std::size_t{24} * 16 * 40;
+  ASSERT_GT(film.size(), pixels + 8);
+  EXPECT_EQ(film.substr(film.size() - 8 - pixels, pixels), other.substr(other.size() - 8 - pixels, pixels));
+}
+
 class InterruptedRender : public ::testing::TestWithParam<int> {};
 
 TEST_P(InterruptedRender, WritesWhatIsFinished) {

@@ -135,8 +135,7 @@ TEST_P(FastBatch, TrianglesInFloatsAreHitWhereBruteForceHitsThem) {
   EXPECT_LT(far_off, rays.size() / 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(Targets, FastBatch,
-                         testing::Combine(testing::ValuesIn(batch_targets()), testing::Values("full", "compressed")),
+INSTANTIATE_TEST_SUITE_P(Targets, FastBatch, testing::Combine(testing::ValuesIn(batch_targets()), testing::Values("full", "compressed")),
                          [](const auto& test) { return std::get<0>(test.param) + "_" + std::get<1>(test.param); });
 
 TEST(FastBatchTargets, UnknownOnesAreRefusedWithAList) {

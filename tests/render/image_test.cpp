@@ -45,7 +45,7 @@ class Pictures : public ::testing::Test {
 
 TEST_F(Pictures, ExrKeepsColoursAndLayersExactly) {
   const std::filesystem::path path = directory_ / "film.exr";
-  write_exr(result_.film, path);
+  write_exr(result_, LayerSet::usual(), path);
   Imf::InputFile file(path.string().c_str());
   const std::vector<std::string> names = {"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z"};
   std::vector<std::vector<float>> planes(names.size(), std::vector<float>(15));
@@ -75,7 +75,7 @@ TEST_F(Pictures, PngIsEncodedInSrgb) {
   result_.film.add(0, 0, {.radiance = Vec3(1.0F, 0.0F, 0.0F)});
   result_.film.add(1, 0, {.radiance = Vec3(0.5F)});
   result_.film.add(2, 1, {.radiance = Vec3(0.0F, 0.25F, 4.0F)});
-  write_png(result_, {.exposure = 0.0F, .tone_map = DisplaySettings::ToneMap::clamp}, path);
+  write_png(result_, {.exposure = 0.0F, .tone_map = ToneMap::none}, path);
   const Image image = read_image(path);
   ASSERT_EQ(image.width, 3U);
   ASSERT_EQ(image.height, 2U);
@@ -87,14 +87,14 @@ TEST_F(Pictures, PngIsEncodedInSrgb) {
   EXPECT_EQ(image.bytes[3 * 5 + 2], 255);
   EXPECT_EQ(image.bytes[3 * 3], 0);  // no samples
   // One stop more doubles the light.
-  write_png(result_, {.exposure = 1.0F, .tone_map = DisplaySettings::ToneMap::clamp}, path);
+  write_png(result_, {.exposure = 1.0F, .tone_map = ToneMap::none}, path);
   EXPECT_EQ(read_image(path).bytes[3 * 5 + 1], 188);
 }
 
 TEST_F(Pictures, UnwritablePlacesAreReportedByName) {
   for (const std::filesystem::path& path : {directory_ / "none" / "film.exr", directory_}) {
     const auto failure = ::testing::ThrowsMessage<OutputError>(::testing::HasSubstr(path.string()));
-    EXPECT_THAT([&] { write_exr(result_.film, path); }, failure);
+    EXPECT_THAT([&] { write_exr(result_, LayerSet::usual(), path); }, failure);
     EXPECT_THAT([&] { write_png(result_, {}, path); }, failure);
   }
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory_), std::filesystem::directory_iterator()), 0);
@@ -108,17 +108,52 @@ TEST_F(Pictures, OldPictureIsReplacedWhole) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory_), std::filesystem::directory_iterator()), 1);
 }
 
-TEST(ToneMap, FilmicKeepsBlackAndMiddleGreyAndRises) {
-  EXPECT_EQ(tone_map_filmic(Vec3(0.0F)).x, 0.0F);
-  EXPECT_NEAR(tone_map_filmic(Vec3(0.18F)).y, 0.18F, 0.002F);
-  float previous = 0.0F;
-  for (float x = 0.01F; x < 100.0F; x *= 1.3F) {
-    const float y = tone_map_filmic(Vec3(x)).x;
+TEST(ToneMap, CurvesKeepBlackAndMiddleGreyAndRise) {
+  for (const ToneMap curve : {ToneMap::filmic, ToneMap::aces}) {
+    EXPECT_EQ(tone_map(curve, Vec3(0.0F)), Vec3(0.0F));
+    EXPECT_NEAR(tone_map(curve, Vec3(0.18F)).y, 0.18F, 0.0002F);
+    float previous = 0.0F;
+    for (float x = 0.01F; x < 100.0F; x *= 1.3F) {
+      const float y = tone_map(curve, Vec3(x)).x;
+      EXPECT_GE(y, previous);
+      EXPECT_LE(y, 1.0F);
+      previous = y;
+    }
+    EXPECT_EQ(tone_map(curve, Vec3(1e30F)).x, 1.0F);
+    EXPECT_EQ(tone_map(curve, Vec3(std::nanf(""))), Vec3(0.0F));
+  }
+  EXPECT_EQ(tone_map(ToneMap::none, Vec3(-1.0F, 0.3F, 7.0F)), Vec3(0.0F, 0.3F, 1.0F));
+}
+
+TEST(ToneMap, NamesLeadBack) {
+  for (std::size_t i = 0; i < tone_map_names().size(); ++i) EXPECT_EQ(static_cast<std::size_t>(tone_map_from_name(tone_map_names()[i])), i);
+  EXPECT_THAT([] { (void)tone_map_from_name("agfa"); }, ::testing::ThrowsMessage<UsageError>(::testing::HasSubstr("filmic")));
+}
+
+TEST(Srgb, EveryCodeComesBack) {
+  for (int code = 0; code < 256; ++code) {
+    const float encoded = static_cast<float>(code) / 255.0F;
+    EXPECT_EQ(std::lround(255.0F * encode_srgb(decode_srgb(encoded))), code);
+    EXPECT_NEAR(encode_srgb(decode_srgb(encoded)), encoded, 1.2e-7F) << code;
+  }
+}
+
+TEST(Srgb, PiecesMeetWithoutAStep) {
+  // Over the joint, wherever within the standard's rounding it lies, one float after the other.
+  float previous = encode_srgb(0.0031304F);
+  for (float x = 0.0031304F; x < 0.0031312F; x = std::nextafter(x, 1.0F)) {
+    const float y = encode_srgb(x);
     EXPECT_GE(y, previous);
-    EXPECT_LE(y, 1.0F);
+    EXPECT_LT(y - previous, 1e-8F);
+    EXPECT_NEAR(y, 12.92F * x, 4e-7F);
     previous = y;
   }
-  EXPECT_EQ(tone_map_filmic(Vec3(1e30F)).x, 1.0F);
+  EXPECT_FLOAT_EQ(encode_srgb(0.001F), 0.01292F);
+  EXPECT_FLOAT_EQ(encode_srgb(0.5F), 0.735356983F);
+  EXPECT_NEAR(decode_srgb(0.04045F), 0.0031308F, 1e-8F);
+  EXPECT_EQ(encode_srgb(1.0F), 1.0F);
+  EXPECT_EQ(encode_srgb(2.0F), 1.0F);
+  EXPECT_EQ(encode_srgb(std::nanf("")), 0.0F);
 }
 
 TEST(ColourMap, LightnessRises) {

@@ -18,7 +18,8 @@ bool names_vertices(const TriangleBlock& /*block*/, std::size_t /*count*/) {
 }
 
 bool names_vertices(const IndexedBlock& block, std::size_t count) {
-  return std::all_of(&block.vertex[0][0], &block.vertex[0][0] + 3 * IndexedBlock::kWidth, [&](std::uint32_t vertex) { return vertex < count; });
+  return std::all_of(&block.vertex[0][0], &block.vertex[0][0] + 3 * IndexedBlock::kWidth,
+                     [&](std::uint32_t vertex) { return vertex < count; });
 }
 
 // A box on a node's grid may reach out of the one that its parent has for it, by a step of the grid.

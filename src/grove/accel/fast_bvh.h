@@ -35,15 +35,11 @@ class BasicFastBvh {
   [[nodiscard]] bool empty() const { return node_count_ == 0; }
   [[nodiscard]] std::span<Node> nodes() { return {reinterpret_cast<Node*>(units_.data()), node_count_}; }
   [[nodiscard]] std::span<const Node> nodes() const { return {reinterpret_cast<const Node*>(units_.data()), node_count_}; }
-  [[nodiscard]] std::span<Block> blocks() {
-    return {reinterpret_cast<Block*>(units_.data() + first_block()), block_count_};
-  }
+  [[nodiscard]] std::span<Block> blocks() { return {reinterpret_cast<Block*>(units_.data() + first_block()), block_count_}; }
   [[nodiscard]] std::span<const Block> blocks() const {
     return {reinterpret_cast<const Block*>(units_.data() + first_block()), block_count_};
   }
-  [[nodiscard]] const Block& block(Child leaf) const {
-    return *reinterpret_cast<const Block*>(units_.data() + leaf.unit());
-  }
+  [[nodiscard]] const Block& block(Child leaf) const { return *reinterpret_cast<const Block*>(units_.data() + leaf.unit()); }
   /// The leaf that block number `block` is.
   [[nodiscard]] Child leaf(std::size_t block) const {
     return Child::leaf(static_cast<std::uint32_t>(first_block() + block * Block::kUnits));

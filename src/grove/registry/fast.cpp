@@ -170,7 +170,8 @@ StructureFamily describe_fast() {
             0,
             0,
             0,
-            "planes and triangles as floats; or planes on a grid of each node's and corners by their numbers in the mesh, in less than half of the "
+            "planes and triangles as floats; or planes on a grid of each node's and corners by their numbers in the mesh, in less than "
+            "half of the "
             "memory (meshes only)"},
            {"triangles",
             {"watertight", "fast"},

@@ -21,6 +21,7 @@ CameraRays::CameraRays(const Camera& camera, std::uint32_t width, std::uint32_t 
   if (!(camera.field_of_view > 0.0F && camera.field_of_view < kPi)) {
     throw InputError(name + " has a field of view that is not between 0 and 180 degrees");
   }
+  world_to_camera_ = Mat4(glm::inverse(glm::dmat4(camera_to_world_)));
   const auto w = static_cast<float>(width);
   const auto h = static_cast<float>(height);
   const bool is_horizontal = camera.axis == FieldOfViewAxis::horizontal || (camera.axis == FieldOfViewAxis::smaller && width < height);
@@ -45,6 +46,12 @@ Ray CameraRays::ray(const Vec2& film, const Vec2& lens) const {
   ray.origin = Vec3(camera_to_world_ * Vec4(origin, 1.0F));
   ray.direction = glm::normalize(Mat3(camera_to_world_) * direction);
   return ray;
+}
+
+FilmPlace CameraRays::place(const Vec4& in_world) const {
+  const Vec4 in_camera = world_to_camera_ * in_world;
+  const float depth = -in_camera.z;
+  return {(Vec2(in_camera) / depth - corner_) / scale_, depth};
 }
 
 Camera frame_bounds(const Box& bounds, float aspect, float field_of_view) {

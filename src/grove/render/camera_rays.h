@@ -6,6 +6,12 @@
 
 namespace grove {
 
+/// Where something of the world is in a picture.
+struct FilmPlace {
+  Vec2 film{0.0F};     ///< pixels, (0, 0) the upper left corner of the picture
+  float depth = 0.0F;  ///< along the viewing axis, world units; not positive behind the camera, where `film` means nothing
+};
+
 /// Rays of a camera for a film of a given size.
 class CameraRays {
  public:
@@ -16,8 +22,15 @@ class CameraRays {
   /// direction is of unit length.
   [[nodiscard]] Ray ray(const Vec2& film, const Vec2& lens) const;
 
+  /// The other way, as a pinhole camera sees it: where a point of the world (w = 1) or what lies infinitely far in a direction (w = 0) is. O(1).
+  [[nodiscard]] FilmPlace place(const Vec4& in_world) const;
+
+  /// Whether both have the same rays.
+  friend bool operator==(const CameraRays&, const CameraRays&) = default;
+
  private:
   Mat4 camera_to_world_;
+  Mat4 world_to_camera_;
   Vec2 scale_;   // from pixels to the plane at z = -1
   Vec2 corner_;  // upper left, on that plane
   float lens_radius_;

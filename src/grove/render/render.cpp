@@ -341,6 +341,10 @@ RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, con
   }
   if (rounds.samples() == 0) total = done;
 
+  if (settings.gathering.first_hits) {
+    result.first_hits =
+        gather_first_hits(world, camera_rays, result.film, {settings.seed, result.part.first_sample}, settings.gathering.earlier);
+  }
   take_stock();
   if (result.dropped_samples > 0) {
     result.warnings.push_back(std::to_string(result.dropped_samples) + " samples were not a number, infinite or negative, and left out");

@@ -11,6 +11,8 @@
 #include "grove/base/progress.h"
 #include "grove/render/adaptive/noise.h"
 #include "grove/render/film.h"
+#include "grove/render/image/colour_image.h"
+#include "grove/render/layers/first_hits.h"
 #include "grove/render/light/light_sampling.h"
 #include "grove/render/picture_part.h"
 #include "grove/render/scene_accelerator.h"
@@ -37,6 +39,13 @@ enum class RayCalls : std::uint8_t {
 [[nodiscard]] std::span<const std::string_view> integrator_names();
 /// Throws UsageError that lists the names.
 [[nodiscard]] Integrator integrator_from_name(std::string_view name);
+
+/// What is gathered beside the film, for layers of the picture and for denoisers. What is not asked for costs nothing.
+struct GatheringSettings {
+  bool first_hits = false;
+  /// Only with first hits: what their motion is measured against; null for none. Must outlive the render.
+  const EarlierFrame* earlier = nullptr;
+};
 
 struct RenderSettings {
   /// Pixels. Both 0: what the scene's film asks for, else 1280 x 720. One 0: from the other, at the aspect of that size.
@@ -70,10 +79,14 @@ struct RenderSettings {
   RayCalls ray_calls = RayCalls::batches;
   /// The part of the picture to make. An end_sample of 0 stands for samples_per_pixel, which it must not exceed.
   PicturePart part;
+  GatheringSettings gathering;
 };
 
 struct RenderResult {
   Film film;
+  std::optional<FirstHits> first_hits;
+  /// What a denoiser made of the film; `render` leaves it empty.
+  std::optional<ColourImage> denoised;
   Integrator integrator = Integrator::path;
   /// Empty for the view that was made for a scene without cameras.
   std::string camera;
@@ -96,6 +109,9 @@ struct RenderResult {
   bool out_of_time = false;
   /// One line each, such as that a scene without light was given a sky.
   std::vector<std::string> warnings;
+
+  /// What the picture shows: denoised where it was, else the means of the film.
+  [[nodiscard]] ColourImage colours() const { return denoised ? *denoised : mean_colours(film); }
 };
 
 /// How a long render goes on from what an earlier one left, and leaves something itself.

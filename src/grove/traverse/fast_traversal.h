@@ -54,7 +54,8 @@ void walk_blocks(const FastScene<Bvh>& scene, const Ray& ray, const float& t_max
     for (std::size_t offset = 0; offset < sizeof(typename Bvh::Block); offset += 64) __builtin_prefetch(line + offset);
   };
   walk_nodes(
-      bvh.nodes().data(), bvh.bounds, ray, t_max, [&](Child child) { return leaf(gathered(bvh.block(child), scene.vertices)); }, prefetch, counter);
+      bvh.nodes().data(), bvh.bounds, ray, t_max, [&](Child child) { return leaf(gathered(bvh.block(child), scene.vertices)); }, prefetch,
+      counter);
 }
 
 /// Closest hit. `hit.t` must start as the ray's t_max.

@@ -6,6 +6,8 @@
 #include <OpenEXR/ImfOutputFile.h>
 
 #include <exception>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include "grove/base/error.h"
@@ -14,39 +16,101 @@
 namespace grove {
 namespace {
 
-struct Channel {
-  const char* name;
-  std::size_t offset;  // in floats within Film::Sample
+struct Plane {
+  std::string name;
+  std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
 };
 
-static_assert(sizeof(Film::Sample) == 9 * sizeof(float));
-constexpr Channel kChannels[] = {{"R", 0},        {"G", 1},        {"B", 2},        {"albedo.R", 3}, {"albedo.G", 4},
-                                 {"albedo.B", 5}, {"normal.X", 6}, {"normal.Y", 7}, {"normal.Z", 8}};
+// The picture, channel by channel.
+class Planes {
+ public:
+  Planes(std::uint32_t width, std::uint32_t height) : width_(width), height_(height) {}
+
+  /// Adds one channel for each of `names`; `value(x, y)` gives a colour, a vector or a number.
+  template <typename Value>
+  void add(const std::vector<std::string>& names, const Value& value) {
+    using Number = decltype(component(value(0, 0), 0));
+    std::vector<std::vector<Number>> planes(names.size(), std::vector<Number>(std::size_t{width_} * height_));
+    for (std::uint32_t y = 0; y < height_; ++y) {
+      for (std::uint32_t x = 0; x < width_; ++x) {
+        const auto all = value(x, y);
+        for (std::size_t i = 0; i < names.size(); ++i) planes[i][std::size_t{y} * width_ + x] = component(all, static_cast<int>(i));
+      }
+    }
+    planes_.reserve(planes_.size() + names.size());
+    for (std::size_t i = 0; i < names.size(); ++i) planes_.push_back({names[i], std::move(planes[i])});
+  }
+
+  void write(const std::filesystem::path& path) {
+    Imf::Header header(static_cast<int>(width_), static_cast<int>(height_));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    Imf::FrameBuffer frame;
+    for (Plane& plane : planes_) {
+      const Imf::PixelType type = std::holds_alternative<std::vector<float>>(plane.values) ? Imf::FLOAT : Imf::UINT;
+      header.channels().insert(plane.name, Imf::Channel(type));
+      // Either number has four bytes. OpenEXR's interface wants a mutable pointer but only reads.
+      char* const base = std::visit([](auto& values) { return reinterpret_cast<char*>(values.data()); }, plane.values);
+      frame.insert(plane.name, Imf::Slice(type, base, 4, 4 * std::size_t{width_}));
+    }
+    Imf::OutputFile output(path.string().c_str(), header);
+    output.setFrameBuffer(frame);
+    output.writePixels(static_cast<int>(height_));
+  }
+
+ private:
+  template <int kCount, typename Number>
+  static Number component(const glm::vec<kCount, Number, glm::defaultp>& all, int i) {
+    return all[i];
+  }
+  static float component(float value, int /*i*/) { return value; }
+
+  std::uint32_t width_;
+  std::uint32_t height_;
+  std::vector<Plane> planes_;
+};
+
+Planes planes_of(const RenderResult& result, LayerSet layers) {
+  const Film& film = result.film;
+  Planes planes(film.width(), film.height());
+  const ColourImage colours = result.colours();
+  planes.add({"R", "G", "B"}, [&](auto x, auto y) { return colours.at(x, y); });
+  if (layers.has(Layer::noisy) && result.denoised) {
+    planes.add({"noisy.R", "noisy.G", "noisy.B"}, [&](auto x, auto y) { return film.mean(x, y).radiance; });
+  }
+  if (layers.has(Layer::albedo)) {
+    planes.add({"albedo.R", "albedo.G", "albedo.B"}, [&](auto x, auto y) { return film.mean(x, y).albedo; });
+  }
+  if (layers.has(Layer::normal)) {
+    planes.add({"normal.X", "normal.Y", "normal.Z"}, [&](auto x, auto y) { return film.mean(x, y).normal; });
+  }
+  if (layers.has(Layer::samples)) {
+    planes.add({"samples.Y"}, [&](auto x, auto y) { return static_cast<float>(film.pixel(x, y).sample_count); });
+  }
+  if (layers.has(Layer::variance)) {
+    planes.add({"variance.Y"}, [&](auto x, auto y) { return film.variance_of_mean(x, y); });
+  }
+  if (!result.first_hits) return planes;
+  const FirstHits& hits = *result.first_hits;
+  if (layers.has(Layer::depth)) planes.add({"depth.Z"}, [&](auto x, auto y) { return hits.at(x, y).depth; });
+  if (layers.has(Layer::motion)) {
+    planes.add({"motion.U", "motion.V"}, [&](auto x, auto y) { return Vec2(hits.at(x, y).motion.x, -hits.at(x, y).motion.y); });
+  }
+  if (layers.has(Layer::id)) {
+    planes.add({"id.primitive", "id.geometry", "id.instance"}, [&](auto x, auto y) {
+      const FirstHit& hit = hits.at(x, y);
+      return glm::uvec3(hit.primitive, hit.geometry, hit.instance);
+    });
+  }
+  return planes;
+}
 
 }  // namespace
 
-void write_exr(const Film& film, const std::filesystem::path& path) {
+void write_exr(const RenderResult& result, LayerSet layers, const std::filesystem::path& path) {
   OutputFile file(path);
-  std::vector<Film::Sample> pixels;
-  pixels.reserve(std::size_t{film.width()} * film.height());
-  for (std::uint32_t y = 0; y < film.height(); ++y)
-    for (std::uint32_t x = 0; x < film.width(); ++x) pixels.push_back(film.mean(x, y));
-
-  const int width = static_cast<int>(film.width());
-  const int height = static_cast<int>(film.height());
+  Planes planes = planes_of(result, layers);
   try {
-    Imf::Header header(width, height);
-    header.compression() = Imf::ZIP_COMPRESSION;
-    Imf::FrameBuffer frame;
-    for (const Channel& channel : kChannels) {
-      header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
-      // OpenEXR's interface wants a mutable pointer but only reads.
-      char* base = reinterpret_cast<char*>(pixels.data()) + channel.offset * sizeof(float);
-      frame.insert(channel.name, Imf::Slice(Imf::FLOAT, base, sizeof(Film::Sample), sizeof(Film::Sample) * film.width()));
-    }
-    Imf::OutputFile output(file.working_path().string().c_str(), header);
-    output.setFrameBuffer(frame);
-    output.writePixels(height);
+    planes.write(file.working_path());
   } catch (const std::exception& error) {
     throw OutputError(path.string() + ": cannot write the EXR image: " + error.what());
   }

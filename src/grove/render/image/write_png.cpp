@@ -21,12 +21,13 @@
 namespace grove {
 namespace {
 
-// The mean radiance of all pixels that hold samples, by one channel.
-std::vector<float> channel_values(const Film& film, int channel) {
+// The colours of all pixels that hold samples, by one channel.
+std::vector<float> channel_values(const Film& film, const ColourImage& colours, int channel) {
   std::vector<float> values;
+  values.reserve(colours.pixels.size());
   for (std::uint32_t y = 0; y < film.height(); ++y)
     for (std::uint32_t x = 0; x < film.width(); ++x)
-      if (film.pixel(x, y).sample_count > 0) values.push_back(film.mean(x, y).radiance[channel]);
+      if (film.pixel(x, y).sample_count > 0) values.push_back(colours.at(x, y)[channel]);
   return values;
 }
 
@@ -40,11 +41,11 @@ float percentile(std::vector<float> values, double part) {
 // Turns the mean of a pixel into what the screen shows, sRGB-encoded in [0, 1].
 class Display {
  public:
-  Display(const RenderResult& result, const DisplaySettings& settings)
+  Display(const RenderResult& result, const ColourImage& colours, const DisplaySettings& settings)
       : integrator_(result.integrator), tone_map_(settings.tone_map), gain_(std::exp2(settings.exposure)) {
-    if (integrator_ == Integrator::cost) high_ = percentile(channel_values(result.film, 2), 0.99);
+    if (integrator_ == Integrator::cost) high_ = percentile(channel_values(result.film, colours, 2), 0.99);
     if (integrator_ == Integrator::depth) {
-      std::vector<float> depths = channel_values(result.film, 0);
+      std::vector<float> depths = channel_values(result.film, colours, 0);
       std::erase(depths, 0.0F);
       low_ = percentile(depths, 0.0);
       high_ = percentile(depths, 1.0);
@@ -64,7 +65,7 @@ class Display {
       case Integrator::normal:
         return value;  // a normal is data: encoding would bend it
       case Integrator::path:
-        return encoded(tone_map_ == DisplaySettings::ToneMap::filmic ? tone_map_filmic(gain_ * value) : gain_ * value);
+        return encoded(tone_map(tone_map_, gain_ * value));
       case Integrator::ao:
         return encoded(value);
     }
@@ -75,7 +76,7 @@ class Display {
   static Vec3 encoded(const Vec3& linear) { return {encode_srgb(linear.x), encode_srgb(linear.y), encode_srgb(linear.z)}; }
 
   Integrator integrator_;
-  DisplaySettings::ToneMap tone_map_;
+  ToneMap tone_map_;
   float gain_;
   float low_ = 0.0F;
   float high_ = 0.0F;
@@ -90,13 +91,14 @@ std::uint8_t to_byte(float value) {
 void write_png(const RenderResult& result, const DisplaySettings& settings, const std::filesystem::path& path) {
   OutputFile file(path);
   const Film& film = result.film;
-  const Display display(result, settings);
+  const ColourImage colours = result.colours();
+  const Display display(result, colours, settings);
   std::vector<std::uint8_t> bytes;
   bytes.reserve(std::size_t{film.width()} * film.height() * 3);
   for (std::uint32_t y = 0; y < film.height(); ++y) {
     for (std::uint32_t x = 0; x < film.width(); ++x) {
       const bool is_finished = film.pixel(x, y).sample_count > 0;
-      const Vec3 shown = is_finished ? display(film.mean(x, y).radiance) : Vec3(0.0F);
+      const Vec3 shown = is_finished ? display(colours.at(x, y)) : Vec3(0.0F);
       for (int channel = 0; channel < 3; ++channel) bytes.push_back(to_byte(shown[channel]));
     }
   }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "grove/render/image/tone_map.h"
 #include "grove/render/render.h"
 
 namespace grove {
@@ -9,11 +10,7 @@ namespace grove {
 struct DisplaySettings {
   /// Stops (powers of two) by which a path-traced picture is brightened before tone mapping.
   float exposure = 0.0F;
-  enum class ToneMap : std::uint8_t {
-    filmic,  ///< see image/tone_map.h
-    clamp    ///< straight, cut at white
-  };
-  ToneMap tone_map = ToneMap::filmic;
+  ToneMap tone_map = ToneMap::aces;
 };
 
 /// Writes a picture for the eye, 8-bit RGB PNG with sRGB encoding. Path-traced light is exposed and tone-mapped; distances run from

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "grove/render/denoise/a_trous.h"
+#include "grove/render/denoise/guides.h"
+#include "grove/render/denoise/illumination.h"
+#include "grove/render/image/colour_image.h"
+#include "grove/render/render.h"
+
+namespace grove {
+
+/// What is done against noise when a picture is finished.
+enum class Denoise : std::uint8_t {
+  off,
+  spatial,  ///< each picture for itself; see `denoise`
+  temporal  ///< with what earlier frames found out; see denoise/temporal.h
+};
+
+/// The names, in the order of the enumeration.
+[[nodiscard]] std::span<const std::string_view> denoise_names();
+/// Throws UsageError that lists the names.
+[[nodiscard]] Denoise denoise_from_name(std::string_view name);
+
+/// What a filter works on: a picture taken apart. What the first surface emits is put aside, and what it reflects is divided by its albedo.
+struct TakenApart {
+  Guides guides;
+  Illumination light;
+  std::vector<Vec3> emitted;
+};
+
+/// Takes a path-traced picture apart. `result` must hold first hits (`GatheringSettings`). O(pixels); in parallel in the caller's arena.
+[[nodiscard]] TakenApart take_apart(const RenderResult& result);
+
+/// A path-traced picture with less noise: taken apart, filtered as a_trous.h tells by how unsure it is, and put together again. Where samples leave no doubt, nothing is filtered: with more
+/// and more samples the result tends to the means of the film. Pixels that show no surface stay as they are. Biased, as all such filters: shadows and reflections that no guide tells of
+/// may blur. `result` as for `take_apart`. O(pixels); about 250 bytes of memory a pixel while it works; in parallel in the caller's arena, with the same result for any number
+/// of threads.
+[[nodiscard]] ColourImage denoise(const RenderResult& result, const FilterSettings& settings = {});
+
+}  // namespace grove
