@@ -22,6 +22,10 @@ auto order(const Hit& hit) {
   return std::tuple(hit.t, hit.instance, hit.geometry, hit.primitive);
 }
 
+bool is_same_surface(const Hit& a, const Hit& b) {
+  return a.t == b.t && a.instance == b.instance && a.geometry == b.geometry;
+}
+
 }  // namespace
 
 bool ChanceFilter::stops(const Hit& hit) const {
@@ -50,7 +54,8 @@ float LightFilter::transmittance() {
   std::ranges::sort(veils_, {}, [](const Veil& veil) { return order(veil.hit); });
   float passed = 1.0F;
   for (std::size_t i = 0; i < veils_.size(); ++i) {
-    if (i == 0 || order(veils_[i].hit) != order(veils_[i - 1].hit)) passed *= veils_[i].transmittance;
+    // Triangles of one surface that share the edge or corner that the ray passes through are met at once, and count once.
+    if (i == 0 || !is_same_surface(veils_[i].hit, veils_[i - 1].hit)) passed *= veils_[i].transmittance;
   }
   return passed;
 }
