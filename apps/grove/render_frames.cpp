@@ -51,7 +51,7 @@ Box bounds_of(AnimatedScene& scene, const FrameCommand& command) {
   return bounds;
 }
 
-std::string methods_text(const Frame& frame) {
+std::string methods_text(const RenderedFrame& frame) {
   if (frame.is_built) return "built";
   if (frame.moved_objects == 0 && frame.moved_instances == 0) return "nothing moved";
   std::vector<UpdateMethod> methods;
@@ -152,7 +152,7 @@ class Sequence {
         return camera_at(*viewpoint_, bounds_, aspect_, command_.plan.turns_at(command_.frames, at + offset));
       };
     }
-    Frame frame;
+    RenderedFrame frame;
     RenderSettings settings = settings_;
     denoiser_.prepare(settings, number);
     {
@@ -175,7 +175,7 @@ class Sequence {
     report(frame, number, time, files, denoise_seconds, write_seconds);
   }
 
-  void report(const Frame& frame, std::uint32_t number, double time, const std::vector<std::string>& files, double denoise_seconds,
+  void report(const RenderedFrame& frame, std::uint32_t number, double time, const std::vector<std::string>& files, double denoise_seconds,
               double write_seconds) {
     const RenderResult& picture = frame.picture;
     const double mrays = picture.seconds > 0.0 ? 1e-6 * static_cast<double>(picture.rays_traced) / picture.seconds : 0.0;

@@ -82,7 +82,7 @@ TEST(FrameRenderer, FramesAreThePicturesOfTheirTimes) {
     AnimatedScene scene = moving_scene();
     FrameRenderer renderer(scene, spec, policy);
     for (std::size_t i = 0; i < std::size(times); ++i) {
-      const Frame frame = renderer.render(settings, {times[i]});
+      const RenderedFrame frame = renderer.render(settings, {times[i]});
       EXPECT_TRUE(same_bits(frame.picture.film, expected[i])) << spec << " at " << times[i];
     }
   }
@@ -94,19 +94,19 @@ TEST(FrameRenderer, NoMoreIsUpdatedThanMoved) {
   FrameRenderer renderer(scene, "bvh", UpdatePolicy::refit);
   EXPECT_TRUE(renderer.render(settings, {0.0}).is_built);
 
-  const Frame still = renderer.render(settings, {0.5});
+  const RenderedFrame still = renderer.render(settings, {0.5});
   EXPECT_FALSE(still.is_built);
   EXPECT_THAT(still.update.objects, IsEmpty());
   EXPECT_FALSE(still.update.top);
   EXPECT_EQ(still.update.cost_growth, 1.0);
 
-  const Frame flight = renderer.render(settings, {1.5});
+  const RenderedFrame flight = renderer.render(settings, {1.5});
   EXPECT_THAT(flight.update.objects, IsEmpty());
   ASSERT_TRUE(flight.update.top);
   EXPECT_EQ(flight.update.top->method, UpdateMethod::refit);
   EXPECT_EQ(flight.moved_instances, 1U);
 
-  const Frame bulge = renderer.render(settings, {2.5});
+  const RenderedFrame bulge = renderer.render(settings, {2.5});
   ASSERT_EQ(bulge.update.objects.size(), 1U);
   EXPECT_EQ(bulge.update.objects[0].method, UpdateMethod::refit);
   EXPECT_GT(bulge.update.cost_growth, 1.0) << "a bulge has larger boxes than a flat floor";
@@ -117,7 +117,7 @@ TEST(FrameRenderer, RebuildingUndoesTheGrowth) {
   AnimatedScene scene = moving_scene();
   FrameRenderer renderer(scene, "bvh", UpdatePolicy::rebuild);
   (void)renderer.render(settings, {0.0});
-  const Frame frame = renderer.render(settings, {2.5});
+  const RenderedFrame frame = renderer.render(settings, {2.5});
   EXPECT_EQ(frame.update.objects.at(0).method, UpdateMethod::rebuild);
   EXPECT_EQ(frame.update.cost_growth, 1.0);
 }
@@ -126,7 +126,7 @@ TEST(FrameRenderer, BlurIsTheSumOverTimes) {
   RenderSettings settings = small_settings(24, 4, 3);
   AnimatedScene scene = moving_scene();
   FrameRenderer renderer(scene, "bvh", UpdatePolicy::automatic);
-  const Frame blurred = renderer.render(settings, {1.0, 2.0, 4});
+  const RenderedFrame blurred = renderer.render(settings, {1.0, 2.0, 4});
   EXPECT_EQ(blurred.moved_instances, 3U);
   EXPECT_TRUE(blurred.picture.part.is_whole(4));
   // Sample k is that of the k-th quarter's middle.
@@ -144,7 +144,7 @@ TEST(FrameRenderer, WhatDoesNotMoveIsNotBlurred) {
   const RenderSettings settings = small_settings(16, 6, 3);
   AnimatedScene scene = moving_scene();
   FrameRenderer renderer(scene, "bvh", UpdatePolicy::automatic);
-  const Frame sharp = renderer.render(settings, {0.0});
+  const RenderedFrame sharp = renderer.render(settings, {0.0});
   EXPECT_TRUE(same_bits(renderer.render(settings, {0.0, 0.9, 4}).picture.film, sharp.picture.film));
   EXPECT_THROW((void)renderer.render(settings, {0.0, 0.9, 7}), UsageError);
 }
@@ -154,8 +154,8 @@ TEST(FrameRenderer, CamerasMayMoveAlone) {
   AnimatedScene scene = moving_scene();
   FrameRenderer renderer(scene, "bvh", UpdatePolicy::automatic);
   const auto view = [](double time) { return look_at({time, 2, 1}, {0, 0, 0}, {0, 1, 0}, 0.6F); };
-  const Frame first = renderer.render(settings, {0.0}, {}, view);
-  const Frame second = renderer.render(settings, {0.5}, {}, view);
+  const RenderedFrame first = renderer.render(settings, {0.0}, {}, view);
+  const RenderedFrame second = renderer.render(settings, {0.5}, {}, view);
   EXPECT_FALSE(same_bits(first.picture.film, second.picture.film));
   EXPECT_FALSE(second.is_built);
   EXPECT_THAT(second.update.objects, IsEmpty());

@@ -193,7 +193,8 @@ class InstanceBatch {
       }
       for (std::size_t first = 0, last = 0; first < arrivals_.size(); first = last) {
         while (last < arrivals_.size() && arrivals_[last].instance == arrivals_[first].instance) ++last;
-        trace(arrivals_[first].instance, std::span(object_rays_).subspan(first, last - first), std::span(active_).subspan(first, last - first));
+        trace(arrivals_[first].instance, std::span(object_rays_).subspan(first, last - first),
+              std::span(active_).subspan(first, last - first));
       }
     }
   }

@@ -21,7 +21,7 @@ void keep_new(const std::vector<std::string>& lines, std::vector<std::string>& a
 FrameRenderer::FrameRenderer(AnimatedScene& scene, std::string_view spec, UpdatePolicy policy)
     : scene_(scene), spec_(canonical_spec(spec)), policy_(policy) {}
 
-void FrameRenderer::follow(double time, Frame& frame) {
+void FrameRenderer::follow(double time, RenderedFrame& frame) {
   const Timer posing;
   const SceneChanges changes = scene_.move_to(time);
   frame.pose_seconds += posing.seconds();
@@ -41,8 +41,8 @@ void FrameRenderer::follow(double time, Frame& frame) {
   frame.update.seconds += seconds;
 }
 
-Frame FrameRenderer::render(RenderSettings settings, const Exposure& exposure, const ProgressReporter& progress,
-                            const std::function<Camera(double time)>& viewpoint) {
+RenderedFrame FrameRenderer::render(RenderSettings settings, const Exposure& exposure, const ProgressReporter& progress,
+                                    const std::function<Camera(double time)>& viewpoint) {
   const std::uint64_t samples = settings.samples_per_pixel;
   const std::uint32_t times = exposure.duration > 0.0 ? exposure.times : 1;
   if (times < 1 || times > samples) {
@@ -55,7 +55,7 @@ Frame FrameRenderer::render(RenderSettings settings, const Exposure& exposure, c
   if (times > 1 && (settings.noise.target > 0.0F || settings.time_limit > 0.0)) {
     throw UsageError("motion blur needs the same number of samples at each time: leave out the noise target and the time limit");
   }
-  Frame frame;
+  RenderedFrame frame;
   std::vector<std::string> warnings;
   for (std::uint32_t k = 0; k < times; ++k) {
     const double time = exposure.time + exposure.duration * (k + 0.5) / times;

@@ -22,7 +22,7 @@ struct Exposure {
 };
 
 /// A picture, and what it took to have the scene and its structures at its time.
-struct Frame {
+struct RenderedFrame {
   RenderResult picture;
   bool is_built = false;              ///< the structures were built for it, as for the first
   std::uint32_t moved_instances = 0;  ///< over all times of the exposure
@@ -46,14 +46,14 @@ class FrameRenderer {
 
   /// Takes a picture, as `render` does. `viewpoint` may give another camera for each time. Throws UsageError for impossible settings, among them those for a
   /// part of a picture together with motion blur. When the stop token asks, the picture that comes back is not whole.
-  [[nodiscard]] Frame render(RenderSettings settings, const Exposure& exposure, const ProgressReporter& progress = {},
-                             const std::function<Camera(double time)>& viewpoint = {});
+  [[nodiscard]] RenderedFrame render(RenderSettings settings, const Exposure& exposure, const ProgressReporter& progress = {},
+                                     const std::function<Camera(double time)>& viewpoint = {});
 
   /// Nothing before the first picture.
   [[nodiscard]] const SceneAccelerator* accelerator() const { return accelerator_.get(); }
 
  private:
-  void follow(double time, Frame& frame);
+  void follow(double time, RenderedFrame& frame);
 
   AnimatedScene& scene_;
   std::string spec_;
