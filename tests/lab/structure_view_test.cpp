@@ -174,8 +174,8 @@ TEST_P(StructureSamples, KeepWhatRecordedRaysComeTo) {
   EXPECT_EQ(all.stride, PictureRays::kLeastStride);
 }
 
-INSTANTIATE_TEST_SUITE_P(Specs, StructureSamples, ::testing::ValuesIn(kSpecs), [](const auto& info) {
-  std::string name = info.param;
+INSTANTIATE_TEST_SUITE_P(Specs, StructureSamples, ::testing::ValuesIn(kSpecs), [](const auto& test) {
+  std::string name = test.param;
   std::ranges::replace_if(
       name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
   return name;
