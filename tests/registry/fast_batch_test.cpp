@@ -108,31 +108,47 @@ TEST_P(FastBatch, CountsTheSameInAnyBatch) {
   EXPECT_GT(nodes, rays.size() / 4);
 }
 
-// The test that rounds: hits where brute force has them, but at few edges, and the same one by one as in batches.
-TEST_P(FastBatch, TrianglesInFloatsAreHitWhereBruteForceHitsThem) {
+// The test that rounds: what is found is the same one by one as in batches, for rays that aim at trouble too.
+TEST_P(FastBatch, TrianglesInFloatsAreHitTheSameInAnyBatch) {
   const GeometryPointer geometry = std::make_shared<const TriangleMesh>(random_triangles(1500, 0.2F, 4));
-  const auto oracle = build(geometry, "brute");
   const auto structure = build(geometry, spec("fast"));
-  const std::vector<Ray> rays = matrix_rays(geometry, 400, 12);
-  std::vector<Hit> expected(rays.size());
+  const std::vector<Ray> rays = matrix_rays(geometry, 40, 12);
   std::vector<Hit> hits(rays.size());
   std::vector<std::uint8_t> results(rays.size());
-  oracle->intersect(rays, expected, {});
   structure->intersect(rays, hits, {});
   structure->occluded(rays, results, {});
-  std::size_t far_off = 0;
-  std::size_t found = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     EXPECT_TRUE(same_bits(hits[i], structure->intersect(rays[i]))) << "ray " << i;
     EXPECT_EQ(results[i], hits[i] ? 1 : 0) << "ray " << i;
     EXPECT_EQ(structure->occluded(rays[i]), static_cast<bool>(hits[i])) << "ray " << i;
+  }
+}
+
+// And hits are where brute force has them, but for a few at edges.
+TEST_P(FastBatch, TrianglesInFloatsAreHitWhereBruteForceHitsThem) {
+  const GeometryPointer geometry = std::make_shared<const TriangleMesh>(random_triangles(1500, 0.2F, 4));
+  const auto oracle = build(geometry, "brute");
+  const auto structure = build(geometry, spec("fast"));
+  Random random(8);
+  const auto point = [&] { return Vec3(random.next_float(-1.0F, 2.0F), random.next_float(-1.0F, 2.0F), random.next_float(-1.0F, 2.0F)); };
+  std::vector<Ray> rays(5000);
+  for (Ray& ray : rays) {
+    ray.origin = point();
+    ray.direction = point() - ray.origin;
+  }
+  std::vector<Hit> expected(rays.size());
+  std::vector<Hit> hits(rays.size());
+  oracle->intersect(rays, expected, {});
+  structure->intersect(rays, hits, {});
+  std::size_t far_off = 0;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
     const bool agree = expected[i] ? hits[i] && std::abs(hits[i].t - expected[i].t) <= 1e-3F * expected[i].t : !hits[i];
     far_off += agree ? 0 : 1;
     found += expected[i] ? 1 : 0;
   }
-  EXPECT_GT(found, rays.size() / 4);
-  // Many of these rays aim at corners and edges.
-  EXPECT_LT(far_off, rays.size() / 20);
+  EXPECT_GT(found, rays.size() / 10);
+  EXPECT_LE(far_off, rays.size() / 1000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, FastBatch, testing::Combine(testing::ValuesIn(batch_targets()), testing::Values("full", "compressed")),
