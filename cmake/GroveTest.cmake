@@ -7,6 +7,8 @@ function(grove_test name)
   target_link_libraries(grove_${name}_tests PRIVATE ${TEST_LIBRARIES} grove_warnings GTest::gmock GTest::gtest_main)
   target_include_directories(grove_${name}_tests PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(grove_${name}_tests PRIVATE GROVE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  # Tests run once for each time that they are compiled: what they test is optimised, they themselves need not be.
+  target_compile_options(grove_${name}_tests PRIVATE $<$<CONFIG:Release>:-O1>)
   if(GROVE_PRECOMPILE_HEADERS)
     target_precompile_headers(grove_${name}_tests PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled_tests.h)
   endif()

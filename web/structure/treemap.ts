@@ -133,6 +133,8 @@ export class Treemap {
               formatter: (item: { data?: unknown }) => tileLabel((item.data as Tile).value),
             },
             upperLabel: { show: false },
+            // Fading a frame without a colour of its own, under a mouse that moves on, is an error of ECharts.
+            emphasis: { disabled: true },
             levels: Array.from({ length: 24 }, (_, level) => ({ itemStyle: { gapWidth: level < 4 ? 3 - level / 2 : 1, borderWidth: level < 2 ? 2 : 1 } })),
           },
         ],

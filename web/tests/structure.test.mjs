@@ -135,7 +135,11 @@ test("nodes are picked in the view and in the map", { skip: !browser }, async ()
   const map = page.locator(".treemap-box");
   await map.scrollIntoViewIfNeeded();
   const area = await map.boundingBox();
-  await page.mouse.click(area.x + area.width * 0.3, area.y + area.height * 0.5);
+  // Some places are frames of the root's own tile.
+  for (const [x, y] of [[0.3, 0.5], [0.35, 0.6], [0.6, 0.45]]) {
+    if (!/100 % of the root/.test(await details.textContent())) break;
+    await page.mouse.click(area.x + area.width * x, area.y + area.height * y);
+  }
   assert.doesNotMatch(await details.textContent(), /100 % of the root/, "a tile does not select its node");
   await screenshot(page, "structure-desktop");
   assert.deepEqual(wrong(problems), []);
