@@ -18,7 +18,7 @@ WideBvh<8> wide(const TriangleMesh& mesh) {
   CollapseSettings settings;
   settings.arity = 8;
   settings.leaf_size = TriangleBlock::kWidth;
-  settings.block_size = TriangleBlock::kWidth;
+  settings.cost.block_size = TriangleBlock::kWidth;
   return widen<8>(build_top_down(list_references(mesh), {.leaf_size = 1}), settings);
 }
 
@@ -125,7 +125,7 @@ TEST(PackFast, LeavesAreFullerWhereABlockTakesTheSameTime) {
   settings.leaf_size = TriangleBlock::kWidth;
   settings.cost.intersection = 0.25;
   const std::size_t one_by_one = pack_fast<FastBvh>(widen<8>(binary, settings), mesh).blocks().size();
-  settings.block_size = TriangleBlock::kWidth;
+  settings.cost.block_size = TriangleBlock::kWidth;
   EXPECT_LT(pack_fast<FastBvh>(widen<8>(binary, settings), mesh).blocks().size(), one_by_one);
 }
 

@@ -29,6 +29,11 @@ struct CostModel {
   double traversal = 1.0;      ///< stepping through one interior node (both children's boxes)
   double intersection = 0.35;  ///< testing one primitive
   SplitCost split_cost = SplitCost::standard;
+  /// So many primitives are tested at once, a power of two: any number of them takes the time of the next multiple.
+  std::uint32_t block_size = 1;
+
+  /// `count` with the unused places of the last block.
+  [[nodiscard]] std::uint32_t in_whole_blocks(std::uint32_t count) const { return (count + block_size - 1) & ~(block_size - 1); }
 };
 
 /// Half the surface area after dividing all lengths by the largest side of a whole scene, so that neither huge nor tiny coordinates

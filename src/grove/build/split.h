@@ -28,20 +28,22 @@ struct Split {
 
 /// The time expected for a ray inside one subset of a partition, as the cost of a split sees it.
 ///
-/// - SplitCost::standard: only the tests of its references, which is today's usual form.
+/// - SplitCost::standard: only the tests of its references, in whole blocks, which is today's usual form.
 /// - SplitCost::equation_2: besides, the time t_i of traversing the subtree, as in equation 2 of the review (MacDonald and Booth 1990):
 ///   one step and one more for each level of a balanced tree.
 class SubsetTime {
  public:
   explicit SubsetTime(const CostModel& model)
-      : per_reference_(static_cast<float>(model.intersection)),
+      : model_(model),
+        per_reference_(static_cast<float>(model.intersection)),
         per_level_(model.split_cost == SplitCost::equation_2 ? static_cast<float>(model.traversal) : 0.0F) {}
 
   [[nodiscard]] float operator()(std::uint32_t count) const {
-    return per_reference_ * static_cast<float>(count) + per_level_ * static_cast<float>(std::bit_width(count));
+    return per_reference_ * static_cast<float>(model_.in_whole_blocks(count)) + per_level_ * static_cast<float>(std::bit_width(count));
   }
 
  private:
+  CostModel model_;
   float per_reference_;
   float per_level_;
 };

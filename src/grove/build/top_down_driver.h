@@ -32,7 +32,7 @@ inline Decision decide(const ReferenceRange& range, const Split& split, std::uin
   if (!split.is_possible || depth + kHalvedLevels >= settings.most_depth) return may_be_leaf ? Decision::leaf : Decision::halve;
   if (!may_be_leaf) return Decision::split;
   const auto area = static_cast<double>(scaled_half_area(range.bounds, area_scale));
-  const double leaf_cost = settings.cost.intersection * range.count * area;
+  const double leaf_cost = settings.cost.intersection * settings.cost.in_whole_blocks(range.count) * area;
   // Equation 2 charges each subset its own steps and the set none.
   const double step = settings.cost.split_cost == SplitCost::equation_2 ? 0.0 : settings.cost.traversal * area;
   return leaf_cost <= step + static_cast<double>(split.cost) ? Decision::leaf : Decision::split;

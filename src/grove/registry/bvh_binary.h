@@ -26,6 +26,7 @@ namespace grove {
   if (const auto found = kObjectSplits.find(options.split); found != kObjectSplits.end()) settings.split = found->second;
   if (options.cost == "equation-2") settings.cost.split_cost = SplitCost::equation_2;
   settings.leaf_size = options.leaf_size;
+  settings.cost.block_size = options.block_size;
   return settings;
 }
 
@@ -40,7 +41,8 @@ template <Geometry G>
     return options.split == "lbvh" ? build_lbvh(list, settings) : build_ploc(std::move(list), settings);
   }
   TopDownSettings settings = top_down_settings(options);
-  if (options.leaves_are_decided_later()) settings.leaf_size = 1;
+  // What is tested at once need not be parted, as parting it mostly costs more.
+  if (options.leaves_are_decided_later()) settings.leaf_size = options.block_size;
   if (options.split == "spatial") return build_with_spatial_splits(geometry, settings);
   return build_top_down(list_references(geometry), settings);
 }

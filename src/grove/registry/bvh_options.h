@@ -19,6 +19,8 @@ struct BvhOptions {
   std::string optimize;
   std::uint32_t leaf_size = 8;
   std::uint32_t radius = 8;
+  /// So many primitives are tested at once (CostModel::block_size); no spec says so.
+  std::uint32_t block_size = 1;
 
   /// Whether later passes decide which references share a leaf, so that the builder must part them all.
   [[nodiscard]] bool leaves_are_decided_later() const { return arity > 2 || bounds != "aabb" || optimize != "none"; }

@@ -20,7 +20,7 @@
 namespace grove {
 namespace {
 
-// The binary hierarchies that the qualities start from, all with single references: leaves and widths are decided together afterwards.
+// The binary hierarchies that the qualities start from: leaves and widths are decided together afterwards.
 BvhOptions options_for(const std::string& quality) {
   if (quality == "low") return BvhOptions(Spec::parse("bvh:split=lbvh,arity=8"));
   if (quality == "high") return BvhOptions(Spec::parse("bvh:split=spatial,optimize=reinsertion,arity=8"));
@@ -31,13 +31,16 @@ template <Geometry G>
 WideBvh<8> build_wide(const G& geometry, const std::string& quality) {
   CollapseSettings settings;
   settings.arity = 8;
+  BvhOptions options = options_for(quality);
   if constexpr (std::same_as<G, TriangleMesh>) {
     // A block is tested in about the time of a step through a node.
     settings.leaf_size = TriangleBlock::kWidth;
-    settings.block_size = TriangleBlock::kWidth;
+    settings.cost.block_size = TriangleBlock::kWidth;
+    // So that sets are split where blocks come out full.
+    options.block_size = TriangleBlock::kWidth;
     settings.cost.intersection = settings.cost.traversal / TriangleBlock::kWidth;
   }
-  return widen<8>(build_binary_hierarchy(geometry, options_for(quality)), settings);
+  return widen<8>(build_binary_hierarchy(geometry, options), settings);
 }
 
 // The hierarchy over a mesh, with the mesh's triangles or their numbers in it, and how they are tested.

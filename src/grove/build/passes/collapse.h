@@ -30,12 +30,9 @@ struct CollapseSettings {
   std::uint32_t leaf_size = 8;
   Widening widening = Widening::optimal;
   CostModel cost = {};
-  /// So many primitives are tested at once: a leaf takes the time of the next multiple.
-  std::uint32_t block_size = 1;
 
   [[nodiscard]] float leaf_time(std::uint32_t count) const {
-    const std::uint32_t blocks = (count + block_size - 1) / block_size;
-    return static_cast<float>(cost.intersection) * static_cast<float>(blocks * block_size);
+    return static_cast<float>(cost.intersection) * static_cast<float>(cost.in_whole_blocks(count));
   }
 };
 
