@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 
 #include "grove/base/parallel.h"
@@ -63,18 +64,19 @@ INSTANTIATE_TEST_SUITE_P(All, Watertight, testing::ValuesIn(representative_specs
 INSTANTIATE_TEST_SUITE_P(CompressedNodes, Watertight, testing::Values("fast:nodes=compressed"),
                          [](const auto& /*test*/) { return std::string("fast"); });
 
-// A hundred million rays, in batches, at a mesh of 1.3 million triangles; for ten minutes or so:
-// grove_registry_tests --gtest_also_run_disabled_tests --gtest_filter='*AHundredMillion*'
-class WatertightAtLength : public testing::TestWithParam<std::string_view> {};
+// In batches, at a mesh of two million triangles; a million rays, or as many as GROVE_WATERTIGHT_RAYS says.
+class WatertightInBatches : public testing::TestWithParam<std::string_view> {};
 
-TEST_P(WatertightAtLength, DISABLED_NoneOfAHundredMillionRaysEscapes) {
+TEST_P(WatertightInBatches, NoRayEscapesFromALargeClosedMesh) {
   constexpr std::size_t kBatch = 100000;
-  constexpr std::size_t kBatches = 1000;
-  const auto mesh = std::make_shared<const TriangleMesh>(closed_mesh(8, 0.05F, 92));
+  const char* const asked = std::getenv("GROVE_WATERTIGHT_RAYS");  // NOLINT(concurrency-mt-unsafe)
+  const std::size_t batches = (asked != nullptr ? std::stoull(asked) : 1000000) / kBatch;
+  ASSERT_GT(batches, 0U);
+  const auto mesh = std::make_shared<const TriangleMesh>(closed_mesh(9, 0.05F, 92));
   ASSERT_GT(mesh->size(), 1000000U);
   const auto structure = build(GeometryPointer(mesh), GetParam());
-  std::vector<std::size_t> escaped(kBatches, 0);
-  parallel_chunks(kBatches, 1, [&](std::size_t batch, std::size_t /*first*/, std::size_t /*last*/) {
+  std::vector<std::size_t> escaped(batches, 0);
+  parallel_chunks(batches, 1, [&](std::size_t batch, std::size_t /*first*/, std::size_t /*last*/) {
     Random random(7000 + batch);
     std::vector<Ray> rays(kBatch);
     for (Ray& ray : rays) {
@@ -92,7 +94,7 @@ TEST_P(WatertightAtLength, DISABLED_NoneOfAHundredMillionRaysEscapes) {
   EXPECT_EQ(std::accumulate(escaped.begin(), escaped.end(), std::size_t{0}), 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, WatertightAtLength, testing::Values("fast", "fast:nodes=compressed"),
+INSTANTIATE_TEST_SUITE_P(All, WatertightInBatches, testing::Values("fast", "fast:nodes=compressed"),
                          [](const auto& test) { return std::string(test.param.size() > 4 ? "compressed" : "full"); });
 
 // t against the same intersection in long double, for triangles from slivers to walls and rays from all around.
