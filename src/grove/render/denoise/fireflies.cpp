@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "grove/base/parallel.h"
-#include "grove/render/bsdf/bsdf_types.h"
 #include "grove/render/denoise/same_surface.h"
 
 namespace grove {
@@ -23,23 +22,18 @@ constexpr float kSignificance = 4.0F;
 
 void limit_fireflies(std::span<MeasuredNoise> measured, const Guides& guides, Illumination& light) {
   const auto width = static_cast<std::ptrdiff_t>(guides.width);
-  const auto height = static_cast<std::ptrdiff_t>(guides.height);
-  std::vector<float> luminances(light.red.size());
-  parallel_for(luminances.size(), 4096, [&](std::size_t i) { luminances[i] = luminance(light.colour(i)); });
+  const std::vector<float> luminances = light.luminances();
   parallel_for(guides.height, 4, [&](std::size_t row) {
     const auto y = static_cast<std::ptrdiff_t>(row);
     for (std::ptrdiff_t x = 0; x < width; ++x) {
       const auto p = static_cast<std::size_t>(y * width + x);
       float brightest = 0.0F;
       int count = 0;
-      for (std::ptrdiff_t qy = std::max<std::ptrdiff_t>(0, y - kRadius); qy <= std::min(height - 1, y + kRadius); ++qy) {
-        for (std::ptrdiff_t qx = std::max<std::ptrdiff_t>(0, x - kRadius); qx <= std::min(width - 1, x + kRadius); ++qx) {
-          const auto q = static_cast<std::size_t>(qy * width + qx);
-          if (q == p || !is_same_surface(guides, p, q, static_cast<float>(qx - x), static_cast<float>(qy - y))) continue;
-          brightest = std::max(brightest, luminances[q]);
-          ++count;
-        }
-      }
+      for_each_on_surface(guides, x, y, kRadius, [&](std::size_t q) {
+        if (q == p) return;
+        brightest = std::max(brightest, luminances[q]);
+        ++count;
+      });
       const float limit = kTolerance * brightest;
       const float excess = luminances[p] - limit;
       MeasuredNoise& noise = measured[p];

@@ -21,6 +21,8 @@ struct Illumination {
     green[pixel] = colour.y;
     blue[pixel] = colour.z;
   }
+  /// Of all pixels. O(pixels); in parallel in the caller's arena.
+  [[nodiscard]] std::vector<float> luminances() const;
 };
 
 }  // namespace grove
