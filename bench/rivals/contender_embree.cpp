@@ -5,6 +5,7 @@
 #include <atomic>
 #include <utility>
 
+#include "embree/embree_mesh.h"
 #include "grove/base/error.h"
 #include "grove/base/timer.h"
 #include "rivals/contender.h"
@@ -53,31 +54,6 @@ void put(const Ray& ray, Rays& packet, unsigned lane) {
   packet.flags[lane] = 0;
 }
 
-RTCRay to_embree(const Ray& ray) {
-  RTCRay query{};
-  query.org_x = ray.origin.x;
-  query.org_y = ray.origin.y;
-  query.org_z = ray.origin.z;
-  query.tnear = ray.t_min;
-  query.dir_x = ray.direction.x;
-  query.dir_y = ray.direction.y;
-  query.dir_z = ray.direction.z;
-  query.tfar = ray.t_max;
-  query.mask = 0xffffffffU;
-  return query;
-}
-
-Hit hit_of(unsigned geometry, unsigned primitive, float t, float u, float v) {
-  Hit hit;
-  if (geometry == RTC_INVALID_GEOMETRY_ID) return hit;
-  hit.t = t;
-  hit.u = u;
-  hit.v = v;
-  hit.primitive = primitive;
-  hit.geometry = 0;
-  return hit;
-}
-
 class Embree final : public Contender {
  public:
   Embree(std::shared_ptr<const TriangleMesh> mesh, const EmbreeSettings& settings)
@@ -102,24 +78,8 @@ class Embree final : public Contender {
   double build() override {
     if (scene_ != nullptr) rtcReleaseScene(scene_);
     const Timer timer;
-    scene_ = rtcNewScene(device_);
     const bool is_high = settings_.quality == EmbreeSettings::Quality::high;
-    const RTCBuildQuality quality = is_high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM;
-    rtcSetSceneFlags(scene_, settings_.is_robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
-    rtcSetSceneBuildQuality(scene_, quality);
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    const auto vertices = mesh_->vertices();
-    const auto triangles = mesh_->triangles();
-    // Embree reads 16 bytes for the last vertex, so it gets a buffer of its own.
-    auto* buffer =
-        static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3), vertices.size()));
-    std::copy(vertices.begin(), vertices.end(), buffer);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, triangles.data(), 0, sizeof(Triangle),
-                               triangles.size());
-    rtcSetGeometryBuildQuality(geometry, quality);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
+    scene_ = new_mesh_scene(device_, *mesh_, is_high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM, settings_.is_robust);
     const std::int64_t before = memory_;
     rtcCommitScene(scene_);
     bytes_ = static_cast<std::uint64_t>(std::max<std::int64_t>(0, memory_ - before));
@@ -129,28 +89,13 @@ class Embree final : public Contender {
   void intersect(std::size_t call_size, bool is_coherent, std::span<const Ray> rays, std::span<Hit> hits) const override {
     if (call_size == Packet8::kWidth) return intersect_packets<Packet8>(is_coherent, rays, hits);
     if (call_size == Packet16::kWidth) return intersect_packets<Packet16>(is_coherent, rays, hits);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      RTCRayHit query;
-      query.ray = to_embree(rays[i]);
-      query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(scene_, &context, &query);
-      hits[i] = hit_of(query.hit.geomID, query.hit.primID, query.ray.tfar, query.hit.u, query.hit.v);
-    }
+    intersect_one_by_one(scene_, rays, hits);
   }
 
   void occluded(std::size_t call_size, std::span<const Ray> rays, std::span<std::uint8_t> results) const override {
     if (call_size == Packet8::kWidth) return occluded_packets<Packet8>(rays, results);
     if (call_size == Packet16::kWidth) return occluded_packets<Packet16>(rays, results);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      RTCRay query = to_embree(rays[i]);
-      rtcOccluded1(scene_, &context, &query);
-      results[i] = query.tfar < 0.0F ? 1 : 0;
-    }
+    occluded_one_by_one(scene_, rays, results);
   }
 
  private:
