@@ -17,7 +17,7 @@ export jobs # also for the functions that xargs runs
 jobs=$(nproc)
 
 # Every C++ file of ours, one a line.
-sources() { find src apps tests bench examples \( -name '*.h' -o -name '*.cpp' \) -type f | sort; }
+sources() { find src apps tests bench examples \( -name '*.h' -o -name '*.inc' -o -name '*.cpp' \) -type f | sort; }
 
 # A compiler cache makes a second build quick; it is used where it is installed and never asked for.
 if command -v ccache >/dev/null; then

@@ -31,7 +31,7 @@ std::vector<std::size_t> forbidden_lines(const std::string& text) {
 }
 
 TEST(Policy, LibraryNeverPrintsExitsOrMakesThreads) {
-  for (const auto& file : files_below("src/grove", {".h", ".cpp"})) {
+  for (const auto& file : files_below("src/grove", {".h", ".inc", ".cpp"})) {
     // A broken invariant is a bug, and the one thing that ends the process.
     if (file.lexically_relative(repository()) == "src/grove/base/check.cpp") continue;
     const std::string text = read(file);
@@ -42,7 +42,7 @@ TEST(Policy, LibraryNeverPrintsExitsOrMakesThreads) {
 }
 
 TEST(Policy, HighwayStaysUnderTraverseSimd) {
-  for (const auto& file : files_below("src", {".h", ".cpp"})) {
+  for (const auto& file : files_below("src", {".h", ".inc", ".cpp"})) {
     const std::string relative = file.lexically_relative(repository()).string();
     for (const std::string& include : includes_of(read(file))) {
       if (include.find("hwy/") == std::string::npos) continue;
@@ -66,7 +66,7 @@ TEST(Policy, FilesHoldOneIdea) {
   constexpr std::size_t kAim = 250;
   constexpr std::size_t kLimit = 400;
   for (const char* folder : {"src", "apps", "tests"}) {
-    for (const auto& file : files_below(folder, {".h", ".cpp"})) {
+    for (const auto& file : files_below(folder, {".h", ".inc", ".cpp"})) {
       const std::size_t count = lines_of(read(file)).size();
       EXPECT_LE(count, kLimit) << place(file, count);
       if (count > kAim) GTEST_LOG_(INFO) << place(file, count) << " is longer than " << kAim << " lines";

@@ -98,7 +98,7 @@ std::map<std::string, Rooms> declared_in_repository() {
 }
 
 TEST(Rooms, IncludeOnlyRoomsAboveThem) {
-  const auto files = files_below("src/grove", {".h", ".cpp"});
+  const auto files = files_below("src/grove", {".h", ".inc", ".cpp"});
   ASSERT_GT(files.size(), 20U);
   for (const auto& file : files) {
     const std::string room = room_of(file);
@@ -115,7 +115,7 @@ TEST(Rooms, DeclareToCMakeOnlyRoomsAboveThem) {
 
 TEST(Rooms, DeclareToCMakeEveryRoomTheyInclude) {
   const auto declared = declared_in_repository();
-  for (const auto& file : files_below("src/grove", {".h", ".cpp"})) {
+  for (const auto& file : files_below("src/grove", {".h", ".inc", ".cpp"})) {
     const std::string room = room_of(file);
     // A room without a CMakeLists.txt is not built.
     if (!declared.contains(room)) continue;

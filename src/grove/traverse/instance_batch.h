@@ -23,10 +23,7 @@ namespace grove {
 class InstanceWalk {
  public:
   using Child = WideNode<8>::Child;
-  struct Entry {
-    Child child;
-    float t;
-  };
+  using Entry = WaitingChild<Child>;
 
   /// So many entries a stack needs. Each level leaves at most seven behind; the root, and one more at the last.
   [[nodiscard]] static std::size_t stack_capacity(const WideBvh<8>& bvh) { return 7 * (std::size_t{bvh.depth} + 1) + 2; }
@@ -74,14 +71,8 @@ class InstanceWalk {
  private:
   void push_children(const WideNode<8>& node) {
     float entry[8];
-    const std::uint32_t bottom = stack_size_;
-    for (unsigned met = slabs_.test(node, t_min_, splat(hit.t), entry); met != 0; met &= met - 1) {
-      const int i = std::countr_zero(met);
-      // Insertion by distance, the nearest on top; mostly there are one or two.
-      std::uint32_t place = stack_size_++;
-      for (; place > bottom && stack_[place - 1].t < entry[i]; --place) stack_[place] = stack_[place - 1];
-      stack_[place] = {node.child[i], entry[i]};
-    }
+    const unsigned met = slabs_.test(node, t_min_, splat(hit.t), entry);
+    push_near_to_far(node.child, met, entry, stack_, stack_size_, [](Child /*child*/) {});
   }
 
   InstanceSet::PreparedRay prepared_;

@@ -77,6 +77,28 @@ template <typename Node>
   }
 }
 
+/// A child that waits on a stack, and from which distance on the ray may hit something in it.
+template <typename Child>
+struct WaitingChild {
+  Child child;
+  float t;
+};
+
+/// Pushes those of a node's children that are met, by the bits of `met`, the nearest on top: by insertion, as mostly there are one or two. pushes(child) is told
+/// of each.
+template <typename Child, typename Pushes>
+[[gnu::always_inline]] inline void push_near_to_far(const Child* children, unsigned met, const float* entry, WaitingChild<Child>* stack,
+                                                    std::uint32_t& stack_size, const Pushes& pushes) {
+  const std::uint32_t bottom = stack_size;
+  for (; met != 0; met &= met - 1) {
+    const int i = std::countr_zero(met);
+    pushes(children[i]);
+    std::uint32_t place = stack_size++;
+    for (; place > bottom && stack[place - 1].t < entry[i]; --place) stack[place] = stack[place - 1];
+    stack[place] = {children[i], entry[i]};
+  }
+}
+
 /// Walks the children that are leaves and that the ray meets, near to far. leaf(child) returns whether the walk is over; it may lower what `t_max` refers to.
 /// `Node` has `planes` as WideNode has, or tells boxes() that do, and children that know is_leaf() and node(). Node 0 must be there, and the ray traceable.
 template <typename Node, typename LeafTest, typename LeafPrefetch, typename C>
@@ -84,12 +106,8 @@ void walk_nodes(const Node* nodes, const Box& bounds, const Ray& ray, const floa
                 const LeafPrefetch& prefetch_leaf, C& counter) {
   using Child = std::remove_cvref_t<decltype(nodes->child[0])>;
   constexpr int kWidth = static_cast<int>(std::extent_v<decltype(nodes->child)>);
-  struct Entry {
-    Child child;
-    float t;
-  };
   // Each level leaves at most kWidth - 1 behind; a node above a single leaf may be one level more.
-  Entry stack[(kWidth - 1) * (Bvh2::kMaxDepth + 1) + kWidth];
+  WaitingChild<Child> stack[(kWidth - 1) * (Bvh2::kMaxDepth + 1) + kWidth];
   std::uint32_t stack_size = 0;
   const WideSlabs<kWidth> slabs(SlabRay(ray, bounds));
   const Float4 t_min = splat(ray.t_min > 0.0F ? ray.t_min : 0.0F);
@@ -97,22 +115,12 @@ void walk_nodes(const Node* nodes, const Box& bounds, const Ray& ray, const floa
   for (;;) {
     count_node(counter, static_cast<std::uint32_t>(node - nodes));
     float entry[kWidth];
-    unsigned met = slabs.test(boxes_of(*node), t_min, splat(t_max), entry);
-    const std::uint32_t bottom = stack_size;
-    for (; met != 0; met &= met - 1) {
-      const int i = std::countr_zero(met);
-      const Child child = node->child[i];
-      if (child.is_leaf()) {
-        prefetch_leaf(child);
-      } else {
-        const char* const line = reinterpret_cast<const char*>(nodes + child.node());
-        for (std::size_t offset = 0; offset < sizeof(Node); offset += 64) __builtin_prefetch(line + offset);
-      }
-      // Insertion by distance, the nearest on top; mostly there are one or two.
-      std::uint32_t place = stack_size++;
-      for (; place > bottom && stack[place - 1].t < entry[i]; --place) stack[place] = stack[place - 1];
-      stack[place] = {child, entry[i]};
-    }
+    const unsigned met = slabs.test(boxes_of(*node), t_min, splat(t_max), entry);
+    push_near_to_far(node->child, met, entry, stack, stack_size, [&](Child child) {
+      if (child.is_leaf()) return prefetch_leaf(child);
+      const char* const line = reinterpret_cast<const char*>(nodes + child.node());
+      for (std::size_t offset = 0; offset < sizeof(Node); offset += 64) __builtin_prefetch(line + offset);
+    });
     counter.reach_stack_depth(stack_size);
     for (;;) {
       // A tie must still be visited: the primitive there may have a lower id.

@@ -6,4 +6,4 @@
 
 #undef GROVE_FAST_FORMAT
 #define GROVE_FAST_FORMAT CompressedFastBvh
-#include "grove/traverse/simd/single_entry-inl.h"
+#include "grove/traverse/simd/single_entry.inc"

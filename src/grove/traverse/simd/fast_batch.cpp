@@ -10,7 +10,7 @@
 
 #undef GROVE_FAST_FORMAT
 #define GROVE_FAST_FORMAT FastBvh
-#include "grove/traverse/simd/batch_entry-inl.h"
+#include "grove/traverse/simd/batch_entry.inc"
 
 #if HWY_ONCE
 namespace grove {
