@@ -20,7 +20,8 @@
 #include "grove/traverse/simd/block_hits-inl.h"
 #include "grove/traverse/simd/block_test-inl.h"
 #include "grove/traverse/simd/node_step-inl.h"
-#include "grove/traverse/simd/ray_setup-inl.h"
+#include "grove/traverse/simd/packet_walk-inl.h"
+#include "grove/traverse/simd/ray_group-inl.h"
 #include "grove/traverse/simd/triangle_test.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -37,12 +38,19 @@ class BatchKernel {
 
  public:
   BatchKernel(const BatchQuery<Bvh>& query, BatchMemory& memory)
-      : query_(query), setup_(query.scene.bvh.bounds), memory_(memory), capacity_(memory.capacity()), units_(query.scene.bvh.units()) {}
+      : query_(query),
+        group_(query.scene.bvh.bounds),
+        packet_(query.scene.bvh),
+        memory_(memory),
+        capacity_(memory.capacity()),
+        units_(query.scene.bvh.units()),
+        free_(memory.slot_count() == kSlots ? ~SlotSet{0} : (SlotSet{1} << memory.slot_count()) - 1) {}
 
   void run() {
-    for (std::uint32_t slot = 0; slot < kSlots; ++slot) refill(slot);
+    fill();
     // Slots at a node are stepped until most have come to a leaf; then all leaves are tested, one after another. So the code of each
     // stays in flight, and branches go the same way.
+    finish();
     while ((at_node_ | at_leaf_) != 0) {
       const int few = std::popcount(at_node_ | at_leaf_) / 3;
       while (std::popcount(at_node_) > few || (at_node_ != 0 && at_leaf_ == 0)) {
@@ -56,8 +64,8 @@ class BatchKernel {
 
  private:
   // Sets of slots, a bit for each. A list in memory would be written at places that depend on where rays go, and all loads behind would wait.
-  using SlotSet = std::uint32_t;
-  static_assert(kSlots <= 32);
+  using SlotSet = std::uint64_t;
+  static_assert(kSlots <= 64);
 
   static std::uint32_t take_first(SlotSet& set) {
     const auto first = static_cast<std::uint32_t>(std::countr_zero(set));
@@ -76,8 +84,8 @@ class BatchKernel {
       slot.next = word;
       const char* const line = &at<char>(word);
       for (std::size_t offset = 0; offset < sizeof(Node); offset += 64) __builtin_prefetch(line + offset);
-      leave_nodes |= (word >> 31) << number;
-      leave |= (word >> 30 & 1U) << number;
+      leave_nodes |= SlotSet{word >> 31} << number;
+      leave |= SlotSet{word >> 30 & 1U} << number;
     }
     at_node_ |= slots & ~leave_nodes;
     at_leaf_ |= leave_nodes & ~leave;
@@ -138,13 +146,17 @@ class BatchKernel {
 
   HWY_INLINE void test_leaves() {
     const SlotSet testing = std::exchange(at_leaf_, 0);
+    test_leaves_of(testing);
+    advance(testing);
+  }
+
+  HWY_INLINE void test_leaves_of(SlotSet testing) {
     gather(testing);
     if constexpr (kTest == TriangleTest::watertight) {
       test_watertight(testing);
     } else {
       test_fast(testing);
     }
-    advance(testing);
   }
 
   // Tests the leaves of slots: first which triangles may be hit at all, for all of them without a branch; then those that may.
@@ -165,7 +177,7 @@ class BatchKernel {
         is_open = is_open && filter.certain == 0;
       }
       possible[number] = static_cast<std::uint8_t>(filter.possible);
-      settling |= (is_open ? 1U : 0U) << number;
+      settling |= SlotSet{is_open ? 1U : 0U} << number;
     }
     settle(settling, possible);
   }
@@ -226,7 +238,7 @@ class BatchKernel {
       BatchSlot& slot = memory_.slot(number);
       const TriangleBlock& block = block_of(number, slot);
       const bool is_hit = (candidates_.known >> i & 1U) != 0 ? take_hit(slot, block, i) : test_alone(slot, block, candidates_.place[i]);
-      hit |= (is_hit ? 1U : 0U) << number;
+      hit |= SlotSet{is_hit ? 1U : 0U} << number;
     }
     candidates_.count = 0;
     return hit;
@@ -276,12 +288,15 @@ class BatchKernel {
   }
 
   // Writes results of finished rays and lets others take their slots.
-  void finish() {
-    for (SlotSet left = std::exchange(done_, 0); left != 0;) {
-      const std::uint32_t number = take_first(left);
-      const BatchSlot& slot = memory_.slot(number);
-      write(slot.index, hit_of(slot));
-      refill(number);
+  HWY_INLINE void finish() {
+    // Those that follow may be finished at once.
+    while (done_ != 0) {
+      free_ |= done_;
+      for (SlotSet left = std::exchange(done_, 0); left != 0;) {
+        const BatchSlot& slot = memory_.slot(take_first(left));
+        write(slot.index, hit_of(slot));
+      }
+      fill();
     }
   }
 
@@ -294,28 +309,97 @@ class BatchKernel {
     }
   }
 
-  // Takes the next ray that needs the kernel, if there is one, and does those on the way that do not.
-  void refill(std::uint32_t number) {
-    BatchSlot& slot = memory_.slot(number);
-    for (; next_ray_ < query_.count; ++next_ray_) {
-      const Ray& ray = query_.rays[next_ray_];
-      if (next_ray_ % RaySetup<8>::kCount == 0) setup_.prepare(&ray, std::min(RaySetup<8>::kCount, query_.count - next_ray_));
+  // Gives rays to free slots: side by side where they can go so, otherwise up to kSingles.
+  HWY_NOINLINE void fill() {
+    for (;;) {
+      if (next_ray_ == group_end_) {
+        if (next_ray_ == query_.count || std::popcount(free_) < std::min<int>(kPacketRays, memory_.slot_count())) return;
+        group_.prepare(query_.rays + next_ray_, std::min<std::size_t>(kPacketRays, query_.count - next_ray_));
+        group_end_ += group_.count();
+        if (!kCounts && !query_.scene.bvh.empty() && groups_alone_ == 0 && group_.is_packet()) {
+          trace_packet();
+          groups_alone_ = packet_.is_worth_it() ? 0 : kGroupsAlone;
+          continue;
+        }
+        groups_alone_ -= groups_alone_ == 0 ? 0 : 1;
+      }
+      const std::size_t number = group_.count() - (group_end_ - next_ray_);
       if constexpr (kCounts) query_.counts[next_ray_] = {};
-      if (!setup_.is_regular(next_ray_ % RaySetup<8>::kCount) || query_.scene.bvh.empty()) {
-        trace_alone(ray);
+      if (!group_.is_regular(number) || query_.scene.bvh.empty()) {
+        trace_alone(query_.rays[next_ray_]);
+        ++next_ray_;
         continue;
       }
-      setup_.copy(next_ray_ % RaySetup<8>::kCount, slot.ray);
-      slot.t = ray.t_max;
-      slot.u = 0.0F;
-      slot.v = 0.0F;
-      slot.primitive = kInvalidId;
-      slot.index = next_ray_++;
-      slot.stack_size = 1;
-      slot.next = 0;
-      at_node_ |= SlotSet{1} << number;
-      return;
+      if (free_ == 0 || memory_.slot_count() - std::popcount(free_) >= kSingles) return;
+      const std::uint32_t slot = take_first(free_);
+      take_ray(memory_.slot(slot), number);
+      at_node_ |= SlotSet{1} << slot;
     }
+  }
+
+  // Puts the next ray, `number` of the group, into a slot, at the root.
+  HWY_INLINE void take_ray(BatchSlot& slot, std::size_t number) {
+    group_.copy(number, slot.ray);
+    slot.t = query_.rays[next_ray_].t_max;
+    slot.u = 0.0F;
+    slot.v = 0.0F;
+    slot.primitive = kInvalidId;
+    slot.index = next_ray_++;
+    slot.stack_size = 1;
+    slot.next = 0;
+  }
+
+  // Traces the group's rays side by side, until each is alone or finished.
+  HWY_INLINE void trace_packet() {
+    using Rays = typename PacketWalk<Bvh>::Rays;
+    packet_.take(group_, query_.rays + next_ray_);
+    std::uint8_t slot_of[kPacketRays];
+    SlotSet slots = 0;
+    for (std::size_t i = 0; i < kPacketRays; ++i) {
+      const std::uint32_t number = take_first(free_);
+      slot_of[i] = static_cast<std::uint8_t>(number);
+      slots |= SlotSet{1} << number;
+      take_ray(memory_.slot(number), i);
+    }
+    const auto test_leaf = [&](std::uint32_t word, Rays rays) {
+      SlotSet testing = 0;
+      for (Rays left = rays; left != 0; left &= left - 1) {
+        const std::uint32_t number = slot_of[std::countr_zero(left)];
+        memory_.slot(number).next = word;
+        testing |= SlotSet{1} << number;
+      }
+      test_leaves_of(testing);
+      Rays finished = 0;
+      for (Rays left = rays; left != 0; left &= left - 1) {
+        const auto ray = static_cast<std::uint32_t>(std::countr_zero(left));
+        const BatchSlot& slot = memory_.slot(slot_of[ray]);
+        if constexpr (kAny) {
+          finished |= Rays{slot.primitive != kInvalidId} << ray;
+        } else {
+          packet_.shorten(ray, slot.t);
+        }
+      }
+      return finished;
+    };
+    const auto hand_over = [&](std::uint32_t word, Rays rays, const float* nears) {
+      for (Rays left = rays; left != 0; left &= left - 1)
+        if (memory_.slot(slot_of[std::countr_zero(left)]).stack_size > kMostHandedOver) return false;
+      for (Rays left = rays; left != 0; left &= left - 1) {
+        const auto ray = static_cast<std::uint32_t>(std::countr_zero(left));
+        BatchSlot& slot = memory_.slot(slot_of[ray]);
+        slot.stack_t()[slot.stack_size] = nears[ray];
+        slot.stack_child(capacity_)[slot.stack_size++] = word;
+      }
+      return true;
+    };
+    packet_.run(test_leaf, hand_over);
+    // What was handed over first is to be visited first.
+    for (SlotSet left = slots; left != 0;) {
+      BatchSlot& slot = memory_.slot(take_first(left));
+      std::reverse(slot.stack_t() + 1, slot.stack_t() + slot.stack_size);
+      std::reverse(slot.stack_child(capacity_) + 1, slot.stack_child(capacity_) + slot.stack_size);
+    }
+    advance(slots);
   }
 
   void trace_alone(const Ray& ray) {
@@ -341,7 +425,8 @@ class BatchKernel {
   static constexpr bool kGathers = !std::is_same_v<Block, TriangleBlock>;
 
   const BatchQuery<Bvh>& query_;
-  RaySetup<8> setup_;
+  RayGroup<kPacketRays> group_;
+  PacketWalk<Bvh> packet_;
   BatchMemory& memory_;
   const std::size_t capacity_;
   const FastUnit* const units_;
@@ -350,7 +435,12 @@ class BatchKernel {
   SlotSet at_node_ = 0;
   SlotSet at_leaf_ = 0;
   SlotSet done_ = 0;
+  SlotSet free_;
+  // So many groups go on alone after one that did not stay together.
+  static constexpr int kGroupsAlone = 8;
+  int groups_alone_ = 0;
   std::size_t next_ray_ = 0;
+  std::size_t group_end_ = 0;
 };
 
 }  // namespace HWY_NAMESPACE
