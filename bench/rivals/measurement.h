@@ -14,6 +14,7 @@ struct MeasureSettings {
   std::vector<std::string> structures = {"fast"};
   std::vector<RayKind> kinds;
   std::size_t rays = 200'000;  ///< of each kind
+  std::size_t samples_per_pixel = 1;  ///< of primary rays
   int rounds = 5;              ///< of tracing
   int build_rounds = 3;
   int threads = 1;  ///< what "all" means
