@@ -9,12 +9,11 @@
 namespace grove {
 namespace {
 
-bool can_pass(const PreparedScene& world, const Hit& hit) {
-  return world.materials.can_pass_light(world.surfaces.material_of(hit));
-}
-
-float opacity_at(const PreparedScene& world, const SurfacePoint& point) {
-  return opacity(world.scene, world.scene.materials[point.material], point);
+// In [0, 1]; 1 where no light can pass.
+float opacity_at(const PreparedScene& world, const Hit& hit) {
+  const std::uint32_t material = world.surfaces.material_of(hit);
+  if (!world.materials.can_pass_light(material)) return 1.0F;
+  return opacity(world.scene, world.scene.materials[material], world.surfaces.coordinates_at(hit));
 }
 
 // By ray, the nearest first. Where a ray meets a primitive twice, the distances tell.
@@ -29,11 +28,9 @@ bool is_same_surface(const Hit& a, const Hit& b) {
 }  // namespace
 
 bool ChanceFilter::stops(const Hit& hit) const {
-  if (!can_pass(*world_, hit)) return true;
-  const SurfacePoint point = world_->surfaces.at(*ray_, hit);
-  const float stopped = opacity_at(*world_, point);
+  const float stopped = opacity_at(*world_, hit);
   if (stopped >= 1.0F || !(stopped > 0.0F)) return stopped >= 1.0F;
-  const bool is_outside = glm::dot(ray_->direction, point.geometric_normal) < 0.0F;
+  const bool is_outside = glm::dot(ray_->direction, world_->surfaces.at(*ray_, hit).geometric_normal) < 0.0F;
   return sampler_->sample_1d(opacity_dimension(vertex_, hit, is_outside)) < stopped;
 }
 
@@ -43,8 +40,7 @@ void LightFilter::start(std::span<const Ray> rays) {
 }
 
 bool LightFilter::stops(std::size_t ray, const Hit& hit) {
-  if (!can_pass(*world_, hit)) return true;
-  const float stopped = opacity_at(*world_, world_->surfaces.at(rays_[ray], hit));
+  const float stopped = opacity_at(*world_, hit);
   if (stopped >= 1.0F) return true;
   if (stopped > 0.0F) veils_.push_back({ray, hit, 1.0F - stopped});
   return false;
