@@ -99,6 +99,7 @@ bool refuse_half_of_ray(void* /*context*/, std::size_t ray, const Hit& hit) {
 // Twelve of the meshes in `geometries`, each built by `spec`, under different transforms that let them overlap.
 GeometryPointer instances_of(const std::vector<GeometryPointer>& geometries, const std::string& spec) {
   std::vector<std::shared_ptr<const Accelerator>> objects;
+  objects.reserve(geometries.size());
   for (const GeometryPointer& geometry : geometries) objects.emplace_back(build(geometry, spec));
   std::vector<InstanceSet::Instance> instances;
   for (std::size_t i = 0; i < 12; ++i) {
