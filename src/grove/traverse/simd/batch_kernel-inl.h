@@ -17,6 +17,7 @@
 
 #include "grove/traverse/fast_traversal.h"
 #include "grove/traverse/simd/batch_slot.h"
+#include "grove/traverse/simd/beside.h"
 #include "grove/traverse/simd/block_hits-inl.h"
 #include "grove/traverse/simd/block_test-inl.h"
 #include "grove/traverse/simd/node_step-inl.h"
@@ -30,11 +31,15 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// kAny: any hit instead of the closest. kCounts: with counters.
-template <typename Bvh, TriangleTest kTest, bool kAny, bool kCounts>
+// kAny: any hit instead of the closest.
+template <typename Bvh, TriangleTest kTest, bool kAny, Beside kBeside>
 class BatchKernel {
   using Node = typename Bvh::Node;
   using Block = typename Bvh::Block;
+  static constexpr bool kCounts = kBeside == Beside::counting;
+  static constexpr bool kFilters = kBeside == Beside::filtering;
+  // Any hit will do, wherever it is.
+  static constexpr bool kAnywhere = kAny && !kFilters;
 
  public:
   BatchKernel(const BatchQuery<Bvh>& query, BatchMemory& memory)
@@ -168,9 +173,9 @@ class BatchKernel {
       BatchSlot& slot = memory_.slot(number);
       const TriangleBlock& block = block_of(number, slot);
       count_leaf_of(slot, block);
-      const BlockFilter filter = filter_block<kAny>(slot.ray, slot.t, block);
+      const BlockFilter filter = filter_block<kAnywhere>(slot.ray, slot.t, block);
       bool is_open = filter.possible != 0;
-      if constexpr (kAny) {
+      if constexpr (kAnywhere) {
         // Whatever the distance is exactly, it is in range.
         slot.primitive = filter.certain != 0 ? 0 : slot.primitive;
         slot.stack_size = filter.certain != 0 ? 1 : slot.stack_size;
@@ -191,20 +196,21 @@ class BatchKernel {
       count_leaf_of(slot, block);
       FourHits hits;
       test_block(slot.ray, slot.t, block, hits);
-      if constexpr (kAny) {
+      if constexpr (kAnywhere) {
         slot.primitive = hits.places != 0 ? 0 : slot.primitive;
         slot.stack_size = hits.places != 0 ? 1 : slot.stack_size;
       } else if (hits.places != 0) {
         Hit closest = hit_of(slot);
-        take_closest(hits, block, closest);
-        slot.t = closest.t;
-        slot.u = closest.u;
-        slot.v = closest.v;
-        slot.primitive = closest.primitive;
+        if constexpr (kFilters) {
+          take_closest(hits, block, closest, FilterOfOneRay(*query_.filter, slot.index));
+        } else {
+          take_closest(hits, block, closest, AcceptsAll());
+        }
+        put(closest, slot);
         hit |= SlotSet{1} << number;
       }
     }
-    while (hit != 0) drop_what_is_farther(memory_.slot(take_first(hit)), capacity_);
+    while (hit != 0) shorten_stack(memory_.slot(take_first(hit)));
   }
 
   // Tests the possible triangles of slots, and shortens the stacks of those that are hit.
@@ -219,13 +225,15 @@ class BatchKernel {
       }
     }
     hit |= test_appended();
-    while (hit != 0) {
-      BatchSlot& slot = memory_.slot(take_first(hit));
-      if constexpr (kAny) {
-        slot.stack_size = 1;
-      } else {
-        drop_what_is_farther(slot, capacity_);
-      }
+    while (hit != 0) shorten_stack(memory_.slot(take_first(hit)));
+  }
+
+  // After a hit.
+  HWY_INLINE void shorten_stack(BatchSlot& slot) {
+    if constexpr (kAny) {
+      if (kAnywhere || slot.primitive != kInvalidId) slot.stack_size = 1;
+    } else {
+      drop_what_is_farther(slot, capacity_);
     }
   }
 
@@ -246,7 +254,7 @@ class BatchKernel {
 
   HWY_INLINE bool take_hit(BatchSlot& slot, const TriangleBlock& block, std::size_t i) {
     const float t = candidates_.t[i];
-    if constexpr (kAny) {
+    if constexpr (kAnywhere) {
       if (!(t >= slot.ray.t_min && t <= slot.t && t < std::numeric_limits<float>::infinity())) return false;
       slot.primitive = 0;
       return true;
@@ -254,28 +262,44 @@ class BatchKernel {
     const std::uint32_t primitive = block.primitive[candidates_.place[i]];
     if (!(t >= slot.ray.t_min && is_closer(t, primitive, hit_of(slot)))) return false;
     const float sum = candidates_.weight[0][i] + candidates_.weight[1][i] + candidates_.weight[2][i];
-    slot.t = t;
-    slot.u = candidates_.weight[1][i] / sum;
-    slot.v = candidates_.weight[2][i] / sum;
-    slot.primitive = primitive;
+    Hit hit;
+    hit.t = t;
+    hit.u = candidates_.weight[1][i] / sum;
+    hit.v = candidates_.weight[2][i] / sum;
+    hit.primitive = primitive;
+    if (!counts(hit, slot)) return false;
+    put(hit, slot);
     return true;
   }
 
-  static HWY_NOINLINE bool test_alone(BatchSlot& slot, const TriangleBlock& block, std::uint32_t place) {
+  HWY_NOINLINE bool test_alone(BatchSlot& slot, const TriangleBlock& block, std::uint32_t place) {
     const WatertightRay ray = slot.ray.triangle_ray();
     const SingleTriangle triangle = triangle_in(block, place);
-    if constexpr (kAny) {
+    if constexpr (kAnywhere) {
       if (!occluded_watertight(ray, triangle.corners)) return false;
       slot.primitive = 0;
       return true;
     }
     Hit hit = hit_of(slot);
-    if (!intersect_watertight(ray, triangle.corners, &block.primitive[place], hit)) return false;
+    if (!intersect_watertight(ray, triangle.corners, &block.primitive[place], hit) || !counts(hit, slot)) return false;
+    put(hit, slot);
+    return true;
+  }
+
+  // Whether a hit of a slot's ray counts that would be its closest.
+  [[nodiscard]] HWY_INLINE bool counts(const Hit& hit, const BatchSlot& slot) const {
+    if constexpr (kFilters) {
+      return (*query_.filter)(slot.index, hit);
+    } else {
+      return true;
+    }
+  }
+
+  static HWY_INLINE void put(const Hit& hit, BatchSlot& slot) {
     slot.t = hit.t;
     slot.u = hit.u;
     slot.v = hit.v;
     slot.primitive = hit.primitive;
-    return true;
   }
 
   static Hit hit_of(const BatchSlot& slot) {
@@ -415,6 +439,9 @@ class BatchKernel {
       };
       if constexpr (kCounts) {
         trace(Counter(query_.counts[next_ray_]));
+      } else if constexpr (kFilters) {
+        FilterOfOneRay of_one(*query_.filter, next_ray_);
+        trace(BlockFilterCounter(of_one.filter()));
       } else {
         trace(NoCounter{});
       }

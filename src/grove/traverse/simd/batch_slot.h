@@ -9,6 +9,7 @@
 
 #include "grove/accel/fast_bvh.h"
 #include "grove/base/huge_vector.h"
+#include "grove/geometry/batch_hit_filter.h"
 #include "grove/geometry/hit.h"
 #include "grove/geometry/traversal_counts.h"
 #include "grove/traverse/fast_traversal.h"
@@ -16,7 +17,7 @@
 
 namespace grove {
 
-/// One batch: what the kernels read and write. Exactly one of `hits` and `results` is there.
+/// One batch: what the kernels read and write. Exactly one of `hits` and `results` is there, and at most one of `counts` and `filter`.
 template <typename Bvh>
 struct BatchQuery {
   FastScene<Bvh> scene;
@@ -25,6 +26,7 @@ struct BatchQuery {
   Hit* hits;
   std::uint8_t* results;
   TraversalCounts* counts;
+  const BatchHitFilter* filter = nullptr;  ///< knows triangles by their numbers in blocks
 };
 
 /// A ray's place in the kernel. Its stack follows in memory: the distances of entries, and `capacity` of them later the children.
