@@ -12,14 +12,12 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "grove/traverse/fast_traversal.h"
 #include "grove/traverse/simd/batch_slot.h"
 #include "grove/traverse/simd/beside.h"
-#include "grove/traverse/simd/block_hits-inl.h"
-#include "grove/traverse/simd/block_test-inl.h"
+#include "grove/traverse/simd/leaf_tests-inl.h"
 #include "grove/traverse/simd/node_step-inl.h"
 #include "grove/traverse/simd/packet_walk-inl.h"
 #include "grove/traverse/simd/ray_group-inl.h"
@@ -35,11 +33,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <typename Bvh, TriangleTest kTest, bool kAny, Beside kBeside>
 class BatchKernel {
   using Node = typename Bvh::Node;
-  using Block = typename Bvh::Block;
   static constexpr bool kCounts = kBeside == Beside::counting;
   static constexpr bool kFilters = kBeside == Beside::filtering;
-  // Any hit will do, wherever it is.
-  static constexpr bool kAnywhere = kAny && !kFilters;
 
  public:
   BatchKernel(const BatchQuery<Bvh>& query, BatchMemory& memory)
@@ -49,13 +44,14 @@ class BatchKernel {
         memory_(memory),
         capacity_(memory.capacity()),
         units_(query.scene.bvh.units()),
+        leaves_(query, memory),
         free_(memory.slot_count() == kSlots ? ~SlotSet{0} : (SlotSet{1} << memory.slot_count()) - 1) {}
 
   void run() {
     fill();
+    finish();
     // Slots at a node are stepped until most have come to a leaf; then all leaves are tested, one after another. So the code of each
     // stays in flight, and branches go the same way.
-    finish();
     while ((at_node_ | at_leaf_) != 0) {
       const int few = std::popcount(at_node_ | at_leaf_) / 3;
       while (std::popcount(at_node_) > few || (at_node_ != 0 && at_leaf_ == 0)) {
@@ -68,16 +64,6 @@ class BatchKernel {
   }
 
  private:
-  // Sets of slots, a bit for each. A list in memory would be written at places that depend on where rays go, and all loads behind would wait.
-  using SlotSet = std::uint64_t;
-  static_assert(kSlots <= 64);
-
-  static std::uint32_t take_first(SlotSet& set) {
-    const auto first = static_cast<std::uint32_t>(std::countr_zero(set));
-    set &= set - 1;
-    return first;
-  }
-
   // Takes what is on top of the stacks of slots, fetches it, and puts the slots into the sets for that. Without a branch, which could not be foreseen.
   HWY_INLINE void advance(SlotSet slots) {
     SlotSet leave_nodes = 0;
@@ -117,198 +103,10 @@ class BatchKernel {
     }
   }
 
-  // Brings the triangles of leaves together where blocks only number their corners: asks for all corners first, so that they come side by side.
-  HWY_INLINE void gather(SlotSet slots) {
-    if constexpr (kGathers) {
-      const Vec3* const vertices = query_.scene.vertices;
-      for (SlotSet left = slots; left != 0;) {
-        const auto& block = at<Block>(memory_.slot(take_first(left)).next);
-        for (const auto& corner : block.vertex)
-          for (const std::uint32_t vertex : corner) __builtin_prefetch(vertices + vertex);
-      }
-      for (SlotSet left = slots; left != 0;) {
-        const std::uint32_t number = take_first(left);
-        gathered_[number] = gathered(at<Block>(memory_.slot(number).next), vertices);
-      }
-    }
-  }
-
-  // What a slot at a leaf is to test.
-  [[nodiscard]] HWY_INLINE const TriangleBlock& block_of(std::uint32_t number, const BatchSlot& slot) const {
-    if constexpr (kGathers) {
-      return gathered_[number];
-    } else {
-      return at<TriangleBlock>(slot.next);
-    }
-  }
-
-  HWY_INLINE void count_leaf_of(const BatchSlot& slot, const TriangleBlock& block) {
-    if constexpr (kCounts) {
-      query_.counts[slot.index].primitives_tested += block.count();
-      ++query_.counts[slot.index].leaves_entered;
-    }
-  }
-
   HWY_INLINE void test_leaves() {
     const SlotSet testing = std::exchange(at_leaf_, 0);
-    test_leaves_of(testing);
+    leaves_.test(testing);
     advance(testing);
-  }
-
-  HWY_INLINE void test_leaves_of(SlotSet testing) {
-    gather(testing);
-    if constexpr (kTest == TriangleTest::watertight) {
-      test_watertight(testing);
-    } else {
-      test_fast(testing);
-    }
-  }
-
-  // Tests the leaves of slots: first which triangles may be hit at all, for all of them without a branch; then those that may.
-  HWY_INLINE void test_watertight(SlotSet testing) {
-    std::uint8_t possible[kSlots];
-    SlotSet settling = 0;
-    for (SlotSet left = testing; left != 0;) {
-      const std::uint32_t number = take_first(left);
-      BatchSlot& slot = memory_.slot(number);
-      const TriangleBlock& block = block_of(number, slot);
-      count_leaf_of(slot, block);
-      const BlockFilter filter = filter_block<kAnywhere>(slot.ray, slot.t, block);
-      bool is_open = filter.possible != 0;
-      if constexpr (kAnywhere) {
-        // Whatever the distance is exactly, it is in range.
-        slot.primitive = filter.certain != 0 ? 0 : slot.primitive;
-        slot.stack_size = filter.certain != 0 ? 1 : slot.stack_size;
-        is_open = is_open && filter.certain == 0;
-      }
-      possible[number] = static_cast<std::uint8_t>(filter.possible);
-      settling |= SlotSet{is_open ? 1U : 0U} << number;
-    }
-    settle(settling, possible);
-  }
-
-  HWY_INLINE void test_fast(SlotSet testing) {
-    SlotSet hit = 0;
-    for (SlotSet left = testing; left != 0;) {
-      const std::uint32_t number = take_first(left);
-      BatchSlot& slot = memory_.slot(number);
-      const TriangleBlock& block = block_of(number, slot);
-      count_leaf_of(slot, block);
-      FourHits hits;
-      test_block(slot.ray, slot.t, block, hits);
-      if constexpr (kAnywhere) {
-        slot.primitive = hits.places != 0 ? 0 : slot.primitive;
-        slot.stack_size = hits.places != 0 ? 1 : slot.stack_size;
-      } else if (hits.places != 0) {
-        Hit closest = hit_of(slot);
-        if constexpr (kFilters) {
-          take_closest(hits, block, closest, FilterOfOneRay(*query_.filter, slot.index));
-        } else {
-          take_closest(hits, block, closest, AcceptsAll());
-        }
-        put(closest, slot);
-        hit |= SlotSet{1} << number;
-      }
-    }
-    while (hit != 0) shorten_stack(memory_.slot(take_first(hit)));
-  }
-
-  // Tests the possible triangles of slots, and shortens the stacks of those that are hit.
-  HWY_INLINE void settle(SlotSet settling, const std::uint8_t* possible) {
-    SlotSet hit = 0;
-    while (settling != 0) {
-      const std::uint32_t number = take_first(settling);
-      const BatchSlot& slot = memory_.slot(number);
-      for (std::uint32_t left = possible[number]; left != 0; left &= left - 1) {
-        candidates_.append(number, slot.ray, block_of(number, slot), static_cast<std::uint32_t>(std::countr_zero(left)));
-        if (candidates_.is_full()) hit |= test_appended();
-      }
-    }
-    hit |= test_appended();
-    while (hit != 0) shorten_stack(memory_.slot(take_first(hit)));
-  }
-
-  // After a hit.
-  HWY_INLINE void shorten_stack(BatchSlot& slot) {
-    if constexpr (kAny) {
-      if (kAnywhere || slot.primitive != kInvalidId) slot.stack_size = 1;
-    } else {
-      drop_what_is_farther(slot, capacity_);
-    }
-  }
-
-  // Returns whose hits are new.
-  HWY_INLINE SlotSet test_appended() {
-    test_candidates(candidates_);
-    SlotSet hit = 0;
-    for (std::size_t i = 0; i < candidates_.count; ++i) {
-      const std::uint32_t number = candidates_.slot[i];
-      BatchSlot& slot = memory_.slot(number);
-      const TriangleBlock& block = block_of(number, slot);
-      const bool is_hit = (candidates_.known >> i & 1U) != 0 ? take_hit(slot, block, i) : test_alone(slot, block, candidates_.place[i]);
-      hit |= SlotSet{is_hit ? 1U : 0U} << number;
-    }
-    candidates_.count = 0;
-    return hit;
-  }
-
-  HWY_INLINE bool take_hit(BatchSlot& slot, const TriangleBlock& block, std::size_t i) {
-    const float t = candidates_.t[i];
-    if constexpr (kAnywhere) {
-      if (!(t >= slot.ray.t_min && t <= slot.t && t < std::numeric_limits<float>::infinity())) return false;
-      slot.primitive = 0;
-      return true;
-    }
-    const std::uint32_t primitive = block.primitive[candidates_.place[i]];
-    if (!(t >= slot.ray.t_min && is_closer(t, primitive, hit_of(slot)))) return false;
-    const float sum = candidates_.weight[0][i] + candidates_.weight[1][i] + candidates_.weight[2][i];
-    Hit hit;
-    hit.t = t;
-    hit.u = candidates_.weight[1][i] / sum;
-    hit.v = candidates_.weight[2][i] / sum;
-    hit.primitive = primitive;
-    if (!counts(hit, slot)) return false;
-    put(hit, slot);
-    return true;
-  }
-
-  HWY_NOINLINE bool test_alone(BatchSlot& slot, const TriangleBlock& block, std::uint32_t place) {
-    const WatertightRay ray = slot.ray.triangle_ray();
-    const SingleTriangle triangle = triangle_in(block, place);
-    if constexpr (kAnywhere) {
-      if (!occluded_watertight(ray, triangle.corners)) return false;
-      slot.primitive = 0;
-      return true;
-    }
-    Hit hit = hit_of(slot);
-    if (!intersect_watertight(ray, triangle.corners, &block.primitive[place], hit) || !counts(hit, slot)) return false;
-    put(hit, slot);
-    return true;
-  }
-
-  // Whether a hit of a slot's ray counts that would be its closest.
-  [[nodiscard]] HWY_INLINE bool counts(const Hit& hit, const BatchSlot& slot) const {
-    if constexpr (kFilters) {
-      return (*query_.filter)(slot.index, hit);
-    } else {
-      return true;
-    }
-  }
-
-  static HWY_INLINE void put(const Hit& hit, BatchSlot& slot) {
-    slot.t = hit.t;
-    slot.u = hit.u;
-    slot.v = hit.v;
-    slot.primitive = hit.primitive;
-  }
-
-  static Hit hit_of(const BatchSlot& slot) {
-    Hit hit;
-    hit.t = slot.t;
-    hit.u = slot.u;
-    hit.v = slot.v;
-    hit.primitive = slot.primitive;
-    return hit;
   }
 
   // Writes results of finished rays and lets others take their slots.
@@ -318,7 +116,7 @@ class BatchKernel {
       free_ |= done_;
       for (SlotSet left = std::exchange(done_, 0); left != 0;) {
         const BatchSlot& slot = memory_.slot(take_first(left));
-        write(slot.index, hit_of(slot));
+        write(slot.index, slot.hit());
       }
       fill();
     }
@@ -392,7 +190,7 @@ class BatchKernel {
         memory_.slot(number).next = word;
         testing |= SlotSet{1} << number;
       }
-      test_leaves_of(testing);
+      leaves_.test(testing);
       Rays finished = 0;
       for (Rays left = rays; left != 0; left &= left - 1) {
         const auto ray = static_cast<std::uint32_t>(std::countr_zero(left));
@@ -449,16 +247,13 @@ class BatchKernel {
     write(next_ray_, hit);
   }
 
-  static constexpr bool kGathers = !std::is_same_v<Block, TriangleBlock>;
-
   const BatchQuery<Bvh>& query_;
   RayGroup<kPacketRays> group_;
   PacketWalk<Bvh> packet_;
   BatchMemory& memory_;
   const std::size_t capacity_;
   const FastUnit* const units_;
-  HitCandidates candidates_;
-  TriangleBlock gathered_[kGathers ? kSlots : 1];  // by slot
+  LeafTests<Bvh, kTest, kAny, kBeside> leaves_;
   SlotSet at_node_ = 0;
   SlotSet at_leaf_ = 0;
   SlotSet done_ = 0;

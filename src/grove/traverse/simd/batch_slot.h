@@ -3,6 +3,7 @@
 // What the kernels of all instruction sets share.
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -39,6 +40,21 @@ struct alignas(64) BatchSlot {
   float u, v;
   std::size_t index;  // in the batch
 
+  [[nodiscard]] Hit hit() const {
+    Hit hit;
+    hit.t = t;
+    hit.u = u;
+    hit.v = v;
+    hit.primitive = primitive;
+    return hit;
+  }
+  void take(const Hit& hit) {
+    t = hit.t;
+    u = hit.u;
+    v = hit.v;
+    primitive = hit.primitive;
+  }
+
   [[nodiscard]] float* stack_t() { return reinterpret_cast<float*>(this + 1); }
   [[nodiscard]] std::uint32_t* stack_child(std::size_t capacity) { return reinterpret_cast<std::uint32_t*>(this + 1) + capacity; }
 };
@@ -50,6 +66,17 @@ inline constexpr std::uint32_t kSingles = 32;
 inline constexpr std::uint32_t kPacketRays = 32;
 // So many children a packet may hand over to a ray.
 inline constexpr std::uint32_t kMostHandedOver = 24;
+// Sets of slots, a bit for each. A list in memory would be written at places that depend on where rays go, and all loads behind would wait.
+using SlotSet = std::uint64_t;
+static_assert(kSlots <= 64);
+
+// Takes one out of a set that is not empty.
+inline std::uint32_t take_first(SlotSet& set) {
+  const auto first = static_cast<std::uint32_t>(std::countr_zero(set));
+  set &= set - 1;
+  return first;
+}
+
 // Lies at the bottom of each stack.
 inline constexpr std::uint32_t kDone = 0xc0000000U;
 // Children are pushed in whole registers: so many places behind the last one are written.
