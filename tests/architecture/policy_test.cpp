@@ -21,13 +21,30 @@ const std::regex& forbidden_call() {
   return pattern;
 }
 
-// Numbers of the lines that do what the library may not.
-std::vector<std::size_t> forbidden_lines(const std::string& text) {
+// Aliases are declared by `using`.
+const std::regex& old_alias() {
+  static const std::regex pattern(R"(\btypedef\b)");
+  return pattern;
+}
+
+// A header must not open a namespace for all who include it.
+const std::regex& opened_namespace() {
+  static const std::regex pattern(R"(^using\s+namespace\b)");
+  return pattern;
+}
+
+// Numbers of the lines where a pattern is found.
+std::vector<std::size_t> lines_with(const std::regex& pattern, const std::string& text) {
   std::vector<std::size_t> numbers;
   for (const Line& line : lines_of(without_comments_and_strings(text))) {
-    if (std::regex_search(line.text, forbidden_call())) numbers.push_back(line.number);
+    if (std::regex_search(line.text, pattern)) numbers.push_back(line.number);
   }
   return numbers;
+}
+
+// Of the lines that do what the library may not.
+std::vector<std::size_t> forbidden_lines(const std::string& text) {
+  return lines_with(forbidden_call(), text);
 }
 
 TEST(Policy, LibraryNeverPrintsExitsOrMakesThreads) {
@@ -38,6 +55,21 @@ TEST(Policy, LibraryNeverPrintsExitsOrMakesThreads) {
     for (const std::size_t number : forbidden_lines(text)) {
       ADD_FAILURE() << place(file, number) << ": " << lines_of(text)[number - 1].text;
     }
+  }
+}
+
+TEST(Policy, AliasesAreDeclaredByUsing) {
+  for (const char* folder : {"src", "apps", "tests", "bench"}) {
+    for (const auto& file : files_below(folder, {".h", ".inc", ".cpp"}))
+      for (const std::size_t number : lines_with(old_alias(), read(file))) ADD_FAILURE() << place(file, number) << ": typedef";
+  }
+}
+
+TEST(Policy, HeadersOpenNoNamespace) {
+  for (const char* folder : {"src", "apps", "tests", "bench"}) {
+    for (const auto& file : files_below(folder, {".h", ".inc"}))
+      for (const std::size_t number : lines_with(opened_namespace(), read(file)))
+        ADD_FAILURE() << place(file, number) << ": using namespace";
   }
 }
 
@@ -78,6 +110,11 @@ TEST(PolicyCheck, FindsForbiddenCalls) {
   EXPECT_THAT(forbidden_lines("int a;\nstd::exit(1);\n"), testing::ElementsAre(2));
   EXPECT_THAT(forbidden_lines("std::cout << a;\nprintf (x);\nstd::abort();\n"), testing::ElementsAre(1, 2, 3));
   EXPECT_THAT(forbidden_lines("std::fputs(a, stderr);\nstd::jthread t;\nassert(a);\n"), testing::ElementsAre(1, 2, 3));
+}
+
+TEST(PolicyCheck, FindsOldAliasesAndOpenedNamespaces) {
+  EXPECT_THAT(lines_with(old_alias(), "typedef int a;\nusing b = int;\n// typedef\n"), testing::ElementsAre(1));
+  EXPECT_THAT(lines_with(opened_namespace(), "using std::min;\nusing namespace std;\n"), testing::ElementsAre(2));
 }
 
 TEST(PolicyCheck, LeavesOtherTextAlone) {
