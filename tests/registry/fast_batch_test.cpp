@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <tuple>
 
 #include "grove/base/error.h"
@@ -47,29 +48,63 @@ std::vector<Ray> with_long_and_short_directions(std::vector<Ray> rays) {
   return rays;
 }
 
+// Each ray with neighbours that go nearly its way, so that kernels may take them side by side; some end early.
+std::vector<Ray> with_neighbours(std::span<const Ray> rays, std::size_t neighbours) {
+  std::vector<Ray> all;
+  all.reserve(rays.size() * (1 + neighbours));
+  Random random(4);
+  for (const Ray& ray : rays) {
+    all.push_back(ray);
+    const bool is_fan = random.next_u32(2) == 0;
+    for (std::size_t i = 0; i < neighbours; ++i) {
+      Ray near = ray;
+      for (int axis = 0; axis < 3; ++axis) {
+        near.direction[axis] *= random.next_float(0.99F, 1.01F);
+        if (!is_fan) near.origin[axis] += random.next_float(-0.005F, 0.005F);
+      }
+      if (random.next_u32(8) == 0) near.t_max = random.next_float();
+      all.push_back(near);
+    }
+  }
+  return all;
+}
+
+void expect_hits_of_brute_force(const NamedGeometry& named, const Accelerator& structure, std::span<const Ray> rays,
+                                std::span<const std::size_t> batches) {
+  std::vector<Hit> expected(rays.size());
+  build(named.geometry, "brute")->intersect(rays, expected, {});
+  for (const std::size_t batch : batches) {
+    std::vector<Hit> hits(rays.size());
+    std::vector<std::uint8_t> results(rays.size(), 7);
+    for (std::size_t first = 0; first < rays.size(); first += batch) {
+      const std::size_t count = std::min(batch, rays.size() - first);
+      structure.intersect({rays.data() + first, count}, {hits.data() + first, count}, {});
+      structure.occluded({rays.data() + first, count}, {results.data() + first, count}, {});
+    }
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_TRUE(same_bits(hits[i], expected[i]))
+          << named.name << ", batches of " << batch << ", ray " << i << ": t " << hits[i].t << " and " << expected[i].t << ", primitives "
+          << hits[i].primitive << " and " << expected[i].primitive;
+      ASSERT_EQ(results[i], expected[i] ? 1 : 0) << named.name << ", batches of " << batch << ", ray " << i;
+    }
+  }
+}
+
 TEST_P(FastBatch, FindsWhatBruteForceFinds) {
   for (const NamedGeometry& named : matrix_geometries()) {
     if (!std::holds_alternative<std::shared_ptr<const TriangleMesh>>(named.geometry)) continue;
-    const auto oracle = build(named.geometry, "brute");
-    const auto structure = build(named.geometry, spec());
     const std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(named.geometry, 40, 9));
-    std::vector<Hit> expected(rays.size());
-    oracle->intersect(rays, expected, {});
-    for (const std::size_t batch : {std::size_t{1}, std::size_t{5}, std::size_t{49}, rays.size()}) {
-      std::vector<Hit> hits(rays.size());
-      std::vector<std::uint8_t> results(rays.size(), 7);
-      for (std::size_t first = 0; first < rays.size(); first += batch) {
-        const std::size_t count = std::min(batch, rays.size() - first);
-        structure->intersect({rays.data() + first, count}, {hits.data() + first, count}, {});
-        structure->occluded({rays.data() + first, count}, {results.data() + first, count}, {});
-      }
-      for (std::size_t i = 0; i < rays.size(); ++i) {
-        ASSERT_TRUE(same_bits(hits[i], expected[i]))
-            << named.name << ", batches of " << batch << ", ray " << i << ": t " << hits[i].t << " and " << expected[i].t << ", primitives "
-            << hits[i].primitive << " and " << expected[i].primitive;
-        ASSERT_EQ(results[i], expected[i] ? 1 : 0) << named.name << ", batches of " << batch << ", ray " << i;
-      }
-    }
+    const std::size_t batches[] = {1, 5, 49, rays.size()};
+    expect_hits_of_brute_force(named, *build(named.geometry, spec()), rays, batches);
+  }
+}
+
+TEST_P(FastBatch, FindsWhatBruteForceFindsForRaysSideBySide) {
+  for (const NamedGeometry& named : matrix_geometries()) {
+    if (!std::holds_alternative<std::shared_ptr<const TriangleMesh>>(named.geometry)) continue;
+    const std::vector<Ray> rays = with_neighbours(matrix_rays(named.geometry, 2, 13), 31);
+    const std::size_t batches[] = {32, 100, rays.size()};
+    expect_hits_of_brute_force(named, *build(named.geometry, spec()), rays, batches);
   }
 }
 
