@@ -173,7 +173,7 @@ TEST_P(FastBatch, FindsWhatAFilterLeaves) {
   const BatchHitFilter filter(refuse_half_of_ray, nullptr);
   std::size_t hit_count = 0;
   for (const Filtered& of : filtered(spec())) {
-    const std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(of.geometry, 12, 13));
+    const std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(of.geometry, 8, 13));
     std::vector<Hit> hits(rays.size());
     std::vector<std::uint8_t> results(rays.size(), 7);
     of.structure->intersect(rays, hits, filter);
@@ -195,7 +195,7 @@ TEST_P(FastBatch, FindsWhatAFilterLeaves) {
 TEST_P(FastBatch, AsksAboutAllThatIsRefused) {
   std::size_t most = 0;
   for (const Filtered& of : filtered(spec())) {
-    const std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(of.geometry, 6, 14));
+    const std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(of.geometry, 4, 14));
     RefuseAll on_the_rays;
     RefuseAll asked;
     RefuseAll asked_in_batch;

@@ -6,6 +6,7 @@
 #include "grove/render/material/material_table.h"
 #include "grove/render/material/opacity.h"
 #include "grove/render/texture/evaluate_texture.h"
+#include "grove/render/texture/flat_blocks.h"
 #include "test_scenes.h"
 
 namespace grove {
@@ -98,6 +99,50 @@ TEST(Texture, OneChannelIsThatOfTheWhole) {
       }
     }
   }
+}
+
+// A picture that is transparent on the left, opaque on the right and neither in between, at any place, repeated or not: flat blocks say what the texels do.
+TEST(FlatBlocks, AreThePictureWhereTheyKnow) {
+  Random random(12);
+  auto image = std::make_shared<Image>();
+  image->width = 45;
+  image->height = 27;
+  image->channels = 4;
+  image->bytes.reserve(std::size_t{4} * image->width * image->height);
+  for (std::uint32_t i = 0; i < image->width * image->height; ++i) {
+    const std::uint32_t x = i % image->width;
+    const std::uint32_t edge = x < 20 ? 0U : (x < 23 ? random.next_u32(256) : 255U);
+    for (int c = 0; c < 3; ++c) image->bytes.push_back(static_cast<std::uint8_t>(random.next_u32(256)));
+    image->bytes.push_back(static_cast<std::uint8_t>(edge));
+  }
+  Scene scene = image_scene();
+  scene.images[0] = image;
+  Texture& texture = scene.textures[0];
+  texture.value[0] = Vec4(0.9F);
+  const ScalarParameter alpha{0.7F, 0, 3};
+  std::size_t known = 0;
+  std::size_t places = 0;
+  for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::mirror, TextureWrap::clamp, TextureWrap::black}) {
+    for (const TextureFilter filter : {TextureFilter::nearest, TextureFilter::linear}) {
+      texture.wrap_u = texture.wrap_v = wrap;
+      texture.filter = filter;
+      texture.invert = filter == TextureFilter::linear;
+      const FlatBlocks blocks(scene, alpha);
+      for (int i = 0; i < 3000; ++i) {
+        Vec2 uv(random.next_float(-1.5F, 2.5F), random.next_float(-1.5F, 2.5F));
+        if (i % 100 == 0) uv.x = i % 200 == 0 ? 1e17F : std::nanf("");
+        const std::optional<float> found = blocks.evaluate(uv);
+        ++places;
+        if (!found) continue;
+        ++known;
+        ASSERT_EQ(*found, evaluate(scene, alpha, uv)) << uv.x << ", " << uv.y;
+      }
+    }
+  }
+  EXPECT_GT(known, places / 10);
+  EXPECT_LT(known, places);
+  EXPECT_FALSE(FlatBlocks(scene, {0.7F, 0, 0}).evaluate(Vec2(0.1F)).has_value());
+  EXPECT_FALSE(FlatBlocks(scene, {0.7F, kNoTexture, 3}).evaluate(Vec2(0.1F)).has_value());
 }
 
 TEST(Texture, CombinesOperands) {

@@ -4,7 +4,6 @@
 #include <tuple>
 
 #include "grove/render/integrator/dimensions.h"
-#include "grove/render/material/opacity.h"
 
 namespace grove {
 namespace {
@@ -13,7 +12,7 @@ namespace {
 float opacity_at(const PreparedScene& world, const Hit& hit) {
   const std::uint32_t material = world.surfaces.material_of(hit);
   if (!world.materials.can_pass_light(material)) return 1.0F;
-  return opacity(world.scene, world.scene.materials[material], world.surfaces.coordinates_at(hit));
+  return world.materials.opacity(material, world.surfaces.coordinates_at(hit));
 }
 
 // By ray, the nearest first. Where a ray meets a primitive twice, the distances tell.

@@ -52,11 +52,16 @@ Vec3 absorption_inside(const Material& material) {
 
 MaterialTable::MaterialTable(const Scene& scene) : scene_(&scene) {
   absorption_.reserve(scene.materials.size());
+  can_pass_light_.reserve(scene.materials.size());
+  flat_alpha_.reserve(scene.materials.size());
   for (const Material& material : scene.materials) {
     absorption_.push_back(absorption_inside(material));
     any_absorbs_inside_ = any_absorbs_inside_ || absorption_.back() != Vec3(0.0F);
     const bool passes = grove::can_pass_light(scene, material);
     can_pass_light_.push_back(passes ? 1 : 0);
+    const bool is_by_alpha =
+        material.alpha_mode != AlphaMode::opaque && material.kind != MaterialKind::mix && material.kind != MaterialKind::interface;
+    flat_alpha_.emplace_back(is_by_alpha ? std::optional<FlatBlocks>(std::in_place, scene, material.alpha) : std::nullopt);
     any_can_pass_light_ = any_can_pass_light_ || passes;
     if (!has_coat(material) && !is_glossy_glass(material)) continue;
     const float ior = has_coat(material) ? coat_ior(material.ior) : usable_ior(material.ior);
@@ -77,6 +82,15 @@ Vec3 MaterialTable::transmittance_inside(std::uint32_t material, float distance)
   return glm::exp(-absorption_[material] * distance);
 }
 
+float MaterialTable::opacity(std::uint32_t material, const SurfaceCoordinates& place) const {
+  const Material& source = scene_->materials[material];
+  if (flat_alpha_[material]) {
+    if (const std::optional<float> alpha = flat_alpha_[material]->evaluate(place.texture))
+      return opacity_by_alpha(source, *alpha * place.colour_alpha);
+  }
+  return grove::opacity(*scene_, source, place);
+}
+
 Vec3 MaterialTable::shading_normal(const SurfacePoint& point) const {
   const Material& material = scene_->materials[point.material];
   if (material.normal_texture == kNoTexture && material.bump.texture == kNoTexture) return point.shading_normal;
@@ -89,8 +103,9 @@ Bsdf MaterialTable::bsdf(const SurfacePoint& point, const SurfaceView& view, flo
     float amount = unit(evaluate(*scene_, chosen->mix_amount, point.coordinates()));
     if (can_pass_light_[point.material] != 0) {
       // Light has met the surface already, more likely the material that lets less of it pass.
-      const float first = (1.0F - amount) * opacity(*scene_, scene_->materials[chosen->mix_material[0]], point.surface_coordinates());
-      const float second = amount * opacity(*scene_, scene_->materials[chosen->mix_material[1]], point.surface_coordinates());
+      const float first =
+          (1.0F - amount) * grove::opacity(*scene_, scene_->materials[chosen->mix_material[0]], point.surface_coordinates());
+      const float second = amount * grove::opacity(*scene_, scene_->materials[chosen->mix_material[1]], point.surface_coordinates());
       if (first + second > 0.0F) amount = second / (first + second);
     }
     const bool is_second = u < amount;

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "grove/render/bsdf/bsdf.h"
 #include "grove/render/material/gltf_surface.h"
 #include "grove/render/surface/surface_point.h"
+#include "grove/render/texture/flat_blocks.h"
 #include "grove/scene/scene.h"
 
 namespace grove {
@@ -32,6 +34,9 @@ class MaterialTable {
   [[nodiscard]] bool absorbs_inside(std::uint32_t material) const { return absorption_[material] != Vec3(0.0F); }
   [[nodiscard]] bool any_absorbs_inside() const { return any_absorbs_inside_; }
 
+  /// `grove::opacity` of this material, bit for bit, mostly without a look at its picture: for hits met at random.
+  [[nodiscard]] float opacity(std::uint32_t material, const SurfaceCoordinates& place) const;
+
   /// Whether light may pass surfaces of this material (`opacity` below 1).
   [[nodiscard]] bool can_pass_light(std::uint32_t material) const { return can_pass_light_[material] != 0; }
   [[nodiscard]] bool any_can_pass_light() const { return any_can_pass_light_; }
@@ -43,6 +48,7 @@ class MaterialTable {
   std::map<float, std::unique_ptr<const DielectricAlbedo>> tables_;
   std::vector<Vec3> absorption_;  // by material, per world unit
   std::vector<std::uint8_t> can_pass_light_;
+  std::vector<std::optional<FlatBlocks>> flat_alpha_;  // by material
   bool any_absorbs_inside_ = false;
   bool any_can_pass_light_ = false;
 };

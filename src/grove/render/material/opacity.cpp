@@ -6,6 +6,12 @@
 
 namespace grove {
 
+float opacity_by_alpha(const Material& material, float alpha) {
+  if (material.alpha_mode == AlphaMode::opaque) return 1.0F;
+  if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff ? 1.0F : 0.0F;
+  return std::clamp(alpha, 0.0F, 1.0F);
+}
+
 float opacity(const Scene& scene, const Material& material, const SurfaceCoordinates& place) {
   float result = 1.0F;
   if (material.kind == MaterialKind::interface && !material.is_emissive()) return 0.0F;
@@ -15,9 +21,7 @@ float opacity(const Scene& scene, const Material& material, const SurfaceCoordin
              opacity(scene, scene.materials[material.mix_material[1]], place) * amount;
   }
   if (material.alpha_mode == AlphaMode::opaque) return result;
-  const float alpha = evaluate(scene, material.alpha, place.texture) * place.colour_alpha;
-  if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff ? result : 0.0F;
-  return result * std::clamp(alpha, 0.0F, 1.0F);
+  return result * opacity_by_alpha(material, evaluate(scene, material.alpha, place.texture) * place.colour_alpha);
 }
 
 bool can_pass_light(const Scene& scene, const Material& material) {

@@ -9,6 +9,9 @@ namespace grove {
 /// emit, masks 0 or 1; of a mix the mean.
 [[nodiscard]] float opacity(const Scene& scene, const Material& material, const SurfaceCoordinates& place);
 
+/// What the material's alpha mode makes of an alpha, texture and vertex colour included.
+[[nodiscard]] float opacity_by_alpha(const Material& material, float alpha);
+
 /// Whether `opacity` can be below 1 anywhere.
 [[nodiscard]] bool can_pass_light(const Scene& scene, const Material& material);
 
