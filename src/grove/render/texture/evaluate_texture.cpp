@@ -9,10 +9,12 @@
 namespace grove {
 namespace {
 
+using ByteTable = std::array<float, 256>;
+
 // 8-bit sRGB to linear (IEC 61966-2-1).
-const std::array<float, 256>& srgb_table() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values{};
+const ByteTable& srgb_table() {
+  static const ByteTable table = [] {
+    ByteTable values{};
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double encoded = static_cast<double>(i) / 255.0;
       values[i] = static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
@@ -21,6 +23,12 @@ const std::array<float, 256>& srgb_table() {
   }();
   return table;
 }
+
+constexpr ByteTable kLinearTable = [] {
+  ByteTable values{};
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i) / 255.0F;
+  return values;
+}();
 
 // A texel index brought into [0, size); false where the wrap mode says that there is nothing.
 bool wrap(TextureWrap mode, std::int64_t size, std::int64_t& i) {
@@ -47,34 +55,63 @@ bool wrap(TextureWrap mode, std::int64_t size, std::int64_t& i) {
   return false;
 }
 
-Vec4 texel(const Image& image, const Texture& texture, std::int64_t x, std::int64_t y) {
-  if (!wrap(texture.wrap_u, image.width, x) || !wrap(texture.wrap_v, image.height, y)) return Vec4(0.0F);
-  const std::size_t first = (static_cast<std::size_t>(y) * image.width + static_cast<std::size_t>(x)) * image.channels;
-  float value[4] = {0.0F, 0.0F, 0.0F, 1.0F};
-  const bool has_alpha = image.channels == 2 || image.channels == 4;
-  for (std::uint32_t c = 0; c < image.channels; ++c) {
-    if (image.is_float()) {
-      value[c] = image.floats[first + c];
-    } else {
-      const std::uint8_t byte = image.bytes[first + c];
-      const bool is_colour = !(has_alpha && c + 1 == image.channels);
-      value[c] = texture.srgb && is_colour ? srgb_table()[byte] : static_cast<float>(byte) / 255.0F;
-    }
+// One channel of an image's texels as RGBA.
+class ChannelReader {
+ public:
+  using Value = float;
+
+  ChannelReader(const Image& image, const Texture& texture, std::uint32_t channel) : image_(&image) {
+    const bool has_alpha = image.channels == 2 || image.channels == 4;
+    is_there_ = channel < 3 || has_alpha;
+    if (is_there_) offset_ = channel == 3 ? image.channels - 1 : (image.channels < 3 ? 0 : channel);
+    table_ = texture.srgb && channel < 3 ? srgb_table().data() : kLinearTable.data();
   }
-  if (image.channels == 1) return {value[0], value[0], value[0], 1.0F};
-  if (image.channels == 2) return {value[0], value[0], value[0], value[1]};
-  return {value[0], value[1], value[2], value[3]};
+
+  [[nodiscard]] float operator()(std::size_t texel) const {
+    if (!is_there_) return 1.0F;
+    const std::size_t place = texel * image_->channels + offset_;
+    return image_->is_float() ? image_->floats[place] : table_[image_->bytes[place]];
+  }
+
+ private:
+  const Image* image_;
+  const float* table_;
+  std::uint32_t offset_ = 0;
+  bool is_there_;
+};
+
+// All four.
+class TexelReader {
+ public:
+  using Value = Vec4;
+
+  TexelReader(const Image& image, const Texture& texture)
+      : red_{image, texture, 0}, green_{image, texture, 1}, blue_{image, texture, 2}, alpha_{image, texture, 3} {}
+
+  [[nodiscard]] Vec4 operator()(std::size_t texel) const { return {red_(texel), green_(texel), blue_(texel), alpha_(texel)}; }
+
+ private:
+  ChannelReader red_, green_, blue_, alpha_;
+};
+
+template <typename Reader>
+typename Reader::Value texel(const Image& image, const Texture& texture, const Reader& reader, std::int64_t x, std::int64_t y) {
+  if (!wrap(texture.wrap_u, image.width, x) || !wrap(texture.wrap_v, image.height, y)) return typename Reader::Value(0.0F);
+  return reader(static_cast<std::size_t>(y) * image.width + static_cast<std::size_t>(x));
 }
 
-Vec4 evaluate_image(const Image& image, const Texture& texture, const Vec2& uv) {
-  if (image.width == 0 || image.height == 0 || (image.bytes.empty() && image.floats.empty())) return Vec4(0.0F);
+// `place` is in the coordinates of the image.
+template <typename Reader>
+typename Reader::Value evaluate_image(const Image& image, const Texture& texture, const Reader& reader, const Vec2& place) {
+  using Value = typename Reader::Value;
+  if (image.width == 0 || image.height == 0 || (image.bytes.empty() && image.floats.empty())) return Value(0.0F);
   // In double, so that far-off coordinates of repeated textures keep their place within a texel.
-  const double x = static_cast<double>(uv.x) * image.width;
-  const double y = static_cast<double>(uv.y) * image.height;
+  const double x = static_cast<double>(place.x) * image.width;
+  const double y = static_cast<double>(place.y) * image.height;
   constexpr double kFar = 1e15;  // beyond this a double has no fraction left
-  if (!(std::fabs(x) < kFar && std::fabs(y) < kFar)) return Vec4(0.0F);
+  if (!(std::fabs(x) < kFar && std::fabs(y) < kFar)) return Value(0.0F);
   if (texture.filter == TextureFilter::nearest) {
-    return texel(image, texture, static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(std::floor(y)));
+    return texel(image, texture, reader, static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(std::floor(y)));
   }
   // Texel centres are at half-integers.
   const double left = std::floor(x - 0.5);
@@ -83,9 +120,22 @@ Vec4 evaluate_image(const Image& image, const Texture& texture, const Vec2& uv) 
   const auto fy = static_cast<float>(y - 0.5 - top);
   const auto x0 = static_cast<std::int64_t>(left);
   const auto y0 = static_cast<std::int64_t>(top);
-  const Vec4 upper = texel(image, texture, x0, y0) * (1.0F - fx) + texel(image, texture, x0 + 1, y0) * fx;
-  const Vec4 lower = texel(image, texture, x0, y0 + 1) * (1.0F - fx) + texel(image, texture, x0 + 1, y0 + 1) * fx;
+  const Value upper = texel(image, texture, reader, x0, y0) * (1.0F - fx) + texel(image, texture, reader, x0 + 1, y0) * fx;
+  const Value lower = texel(image, texture, reader, x0, y0 + 1) * (1.0F - fx) + texel(image, texture, reader, x0 + 1, y0 + 1) * fx;
   return upper * (1.0F - fy) + lower * fy;
+}
+
+Vec2 place_in(const Texture& texture, const TextureCoordinates& uv) {
+  return Vec2(texture.uv_transform * Vec3(uv.of(texture.uv_set), 1.0F));
+}
+
+// Most numbers are one channel of a picture, of which the others need not be read.
+float evaluate_channel(const Scene& scene, std::uint32_t texture_id, std::uint32_t channel, const TextureCoordinates& uv) {
+  const Texture& texture = scene.textures[texture_id];
+  if (texture.kind != TextureKind::image) return evaluate_texture(scene, texture_id, uv)[static_cast<int>(channel)];
+  const Image& image = *scene.images[texture.image];
+  const float value = evaluate_image(image, texture, ChannelReader(image, texture, channel), place_in(texture, uv));
+  return (texture.invert ? 1.0F - value : value) * texture.value[0][static_cast<int>(channel)];
 }
 
 Vec4 operand(const Scene& scene, const Texture& texture, int i, const TextureCoordinates& uv) {
@@ -101,12 +151,12 @@ Vec4 evaluate_texture(const Scene& scene, std::uint32_t texture_id, const Textur
     case TextureKind::constant:
       return texture.value[0];
     case TextureKind::image: {
-      const Vec2 place = Vec2(texture.uv_transform * Vec3(uv.of(texture.uv_set), 1.0F));
-      const Vec4 value = evaluate_image(*scene.images[texture.image], texture, place);
+      const Image& image = *scene.images[texture.image];
+      const Vec4 value = evaluate_image(image, texture, TexelReader(image, texture), place_in(texture, uv));
       return (texture.invert ? Vec4(1.0F) - value : value) * texture.value[0];
     }
     case TextureKind::checkerboard: {
-      const Vec2 place = Vec2(texture.uv_transform * Vec3(uv.of(texture.uv_set), 1.0F));
+      const Vec2 place = place_in(texture, uv);
       const float cells = std::floor(place.x) + std::floor(place.y);
       return operand(scene, texture, std::fmod(cells, 2.0F) == 0.0F ? 0 : 1, uv);
     }
@@ -127,7 +177,7 @@ Vec3 evaluate(const Scene& scene, const ColourParameter& parameter, const Textur
 
 float evaluate(const Scene& scene, const ScalarParameter& parameter, const TextureCoordinates& uv) {
   if (parameter.texture == kNoTexture) return parameter.value;
-  return parameter.value * evaluate_texture(scene, parameter.texture, uv)[static_cast<int>(std::min(parameter.channel, 3U))];
+  return parameter.value * evaluate_channel(scene, parameter.texture, std::min(parameter.channel, 3U), uv);
 }
 
 float mean_luminance(const Scene& scene, const ColourParameter& parameter) {
