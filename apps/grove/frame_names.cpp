@@ -15,11 +15,11 @@ struct NamePattern {
   int digits = 0;
 };
 
-[[noreturn]] void fail(const std::string& name) {
-  throw UsageError(fmt::format("-o: '{}' may have one %d or %04d, for the number of the frame; write %% for a percent sign", name));
+[[noreturn]] void fail(const std::string& name, std::string_view option) {
+  throw UsageError(fmt::format("{}: '{}' may have one %d or %04d, for the number of the frame; write %% for a percent sign", option, name));
 }
 
-NamePattern take_apart(const std::string& name) {
+NamePattern take_apart(const std::string& name, std::string_view option) {
   NamePattern pattern;
   std::size_t i = 0;
   while (i < name.size()) {
@@ -39,9 +39,9 @@ NamePattern take_apart(const std::string& name) {
     if (end < name.size() && name[end] == '0') {
       for (++end; end < name.size() && name[end] >= '0' && name[end] <= '9' && digits <= kMostDigits; ++end)
         digits = 10 * digits + (name[end] - '0');
-      if (digits == 0) fail(name);
+      if (digits == 0) fail(name, option);
     }
-    if (end >= name.size() || name[end] != 'd' || pattern.has_number || digits > kMostDigits) fail(name);
+    if (end >= name.size() || name[end] != 'd' || pattern.has_number || digits > kMostDigits) fail(name, option);
     pattern.has_number = true;
     pattern.digits = digits;
     i = end + 1;
@@ -51,12 +51,12 @@ NamePattern take_apart(const std::string& name) {
 
 }  // namespace
 
-bool has_frame_number(const std::string& name) {
-  return take_apart(name).has_number;
+bool has_frame_number(const std::string& name, std::string_view option) {
+  return take_apart(name, option).has_number;
 }
 
-std::string frame_name(const std::string& name, std::uint32_t number) {
-  const NamePattern pattern = take_apart(name);
+std::string frame_name(const std::string& name, std::uint32_t number, std::string_view option) {
+  const NamePattern pattern = take_apart(name, option);
   return pattern.has_number ? fmt::format("{}{:0{}}{}", pattern.before, number, pattern.digits, pattern.after) : pattern.before;
 }
 

@@ -15,6 +15,8 @@ namespace {
 
 constexpr std::uint32_t kMostFrames = 1'000'000;
 constexpr double kLatest = 1e6;
+constexpr double kDegreesPerTurn = 360.0;
+constexpr double kMostTurning = 3.6e6;
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 
 FrameRange parse_range(const std::string& text) {
@@ -100,6 +102,10 @@ void add_frame_options(CLI::App& verb, FrameOptions& options) {
   in_range(verb.add_option("--fov", options.field_of_view, "Field of view from bottom to top for --eye and --camera orbit (default: 34.4)")
                ->type_name("DEGREES"),
            0.1, 179.0);
+  in_range(verb.add_option("--turn", options.turn,
+                           "How far --camera orbit turns within --frames, counter-clockwise seen from above (default: 360, once round)")
+               ->type_name("DEGREES"),
+           -kMostTurning, kMostTurning);
 }
 
 FramePlan plan_frames(const FrameOptions& options, std::string& camera, const std::vector<std::string>& pictures) {
@@ -107,6 +113,7 @@ FramePlan plan_frames(const FrameOptions& options, std::string& camera, const st
   plan.policy = parse_update_policy(options.update);
   plan.orbits = camera == "orbit";
   if (plan.orbits) camera.clear();
+  if (options.turn && !plan.orbits) throw UsageError("--turn: says how far --camera orbit turns; name that camera");
   plan.viewpoint = parse_viewpoint(options, camera, plan.orbits);
   plan.time = options.time.value_or(0.0);
   plan.is_posed = options.time || options.animation || options.loops || options.shutter > 0.0;
@@ -135,7 +142,8 @@ double FramePlan::time_of(const FrameOptions& options, std::uint32_t number) con
 
 double FramePlan::turns_at(const FrameOptions& options, double at) const {
   if (!orbits || options.range.empty()) return 0.0;
-  return (at * options.frames_per_second - range.first) / range.count();
+  const double whole = options.turn.value_or(kDegreesPerTurn) / kDegreesPerTurn;
+  return whole * (at * options.frames_per_second - range.first) / range.count();
 }
 
 double animation_time(const FrameOptions& options, const AnimatedScene& scene, double time) {

@@ -28,6 +28,7 @@ struct FrameOptions {
   std::string look_at;
   std::string up;
   std::optional<double> field_of_view;
+  std::optional<double> turn;  ///< degrees that `--camera orbit` turns by within the frames
 };
 
 void add_frame_options(CLI::App& verb, FrameOptions& options);

@@ -61,7 +61,7 @@ struct RenderOptions : CommonOptions {
 void check_frames(const RenderOptions& options) {
   if (!options.checkpoint.empty())
     throw UsageError("--checkpoint: saves one picture, not frames; leave it out, and go on after an interruption with --resume");
-  if (options.reference.is_named()) throw UsageError("--compare: compares one picture, not frames; leave it out");
+  static_cast<void>(options.reference.differs_by_frame());  // finds a bad name
   if (options.frames.shutter <= 0.0) return;
   if (options.denoise.way != Denoise::off)
     throw UsageError("--denoise: does not go with --shutter, whose frames show several times at once; leave one out");
@@ -137,9 +137,9 @@ int run_frames(const RenderOptions& options, Interrupts& interrupts, const Conso
     if (has_film(files)) header = film_header(options.scene, scene, accelerator, settings);
     write_pictures(files, result, {.display = options.display.settings, .layers = options.layers.layers}, header, Console(true));
   };
-  return render_frames(
-      {options, options.frames, options.plan, options.pictures, options.settings, options.integrator, options.denoise, write}, interrupts,
-      console);
+  return render_frames({options, options.frames, options.plan, options.pictures, options.settings, options.integrator, options.denoise,
+                        options.reference, options.display.settings, write},
+                       interrupts, console);
 }
 
 // The scene as it is read, or at the time that is asked for; a viewpoint goes into the settings.

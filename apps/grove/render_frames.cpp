@@ -111,6 +111,12 @@ class Sequence {
   void prepare() {
     settings_ = command_.settings;
     const View view = choose_view(scene_.scene(), settings_);
+    // What is not there is found before any work.
+    for (std::uint32_t number = command_.plan.range.first; number < command_.plan.range.end; ++number) {
+      ReferencePicture reference = command_.reference.of_frame(number);
+      reference.read(view.width, view.height);
+      if (!command_.reference.differs_by_frame()) break;
+    }
     aspect_ = static_cast<float>(view.width) / static_cast<float>(view.height);
     viewpoint_ = command_.plan.viewpoint;
     // Without any camera all is shown.
@@ -167,24 +173,51 @@ class Sequence {
     }
     if (viewpoint) settings.viewpoint = viewpoint(exposure_.time);
     const double denoise_seconds = denoiser_.finish(frame.picture, settings, scene_.scene());
+    ReferencePicture reference = command_.reference.of_frame(number);
+    reference.read(frame.picture.film.width(), frame.picture.film.height());
+    reference.compare(frame.picture.colours(), command_.display, Console(true));
     const std::vector<std::string> files = files_of(number);
     const Timer writing;
     command_.write(files, frame.picture, settings, scene_.scene(), *renderer.accelerator());
     const double write_seconds = writing.seconds();
     ++finished_;
-    report(frame, number, time, files, denoise_seconds, write_seconds);
+    report({frame, number, time, files, reference, denoise_seconds, write_seconds});
   }
 
-  void report(const RenderedFrame& frame, std::uint32_t number, double time, const std::vector<std::string>& files, double denoise_seconds,
-              double write_seconds) {
+  // A frame that is finished.
+  struct Finished {
+    const RenderedFrame& frame;
+    std::uint32_t number;
+    double time;
+    const std::vector<std::string>& files;
+    const ReferencePicture& reference;
+    double denoise_seconds;
+    double write_seconds;
+  };
+
+  // Of a frame's time: what went into it, on the wall's clock, where that is known.
+  [[nodiscard]] static std::string split_text(const Finished& done) {
+    const RenderResult& picture = done.frame.picture;
+    if (!(picture.trace_seconds > 0.0)) return {};
+    const auto threads = static_cast<double>(arena_threads());
+    std::string text =
+        fmt::format(" (trace {}, shade {}", duration(picture.trace_seconds / threads), duration(picture.shade_seconds / threads));
+    if (done.denoise_seconds > 0.0) text += fmt::format(", then denoise {}", duration(done.denoise_seconds));
+    return text + ")";
+  }
+
+  void report(const Finished& done) {
+    const RenderedFrame& frame = done.frame;
     const RenderResult& picture = frame.picture;
     const double mrays = picture.seconds > 0.0 ? 1e-6 * static_cast<double>(picture.rays_traced) / picture.seconds : 0.0;
     const double update_seconds = frame.is_built ? frame.build_seconds : frame.update.seconds;
-    console_.say(fmt::format("frame {:4}  {:.3f} s: moved in {}, {} in {}, cost x {:.2f}; {} rays in {}: {} Mrays/s; {}", number, time,
-                             duration(frame.pose_seconds), methods_text(frame), duration(update_seconds), frame.update.cost_growth,
-                             with_separators(picture.rays_traced), duration(picture.seconds), short_number(mrays), files.front()));
-    Json json = {{"frame", number},
-                 {"time", time},
+    console_.say(fmt::format("frame {:4}  {:.3f} s: moved in {}, {} in {}, cost x {:.2f}; {} rays in {}{}: {} Mrays/s; {}", done.number,
+                             done.time, duration(frame.pose_seconds), methods_text(frame), duration(update_seconds),
+                             frame.update.cost_growth, with_separators(picture.rays_traced), duration(picture.seconds), split_text(done),
+                             short_number(mrays), done.files.front()));
+    if (const std::string difference = done.reference.text(); !difference.empty()) console_.say("difference " + difference);
+    Json json = {{"frame", done.number},
+                 {"time", done.time},
                  {"moved_instances", frame.moved_instances},
                  {"moved_objects", frame.moved_objects},
                  {"built", frame.is_built},
@@ -196,15 +229,17 @@ class Sequence {
                  {"prepare_seconds", picture.prepare_seconds},
                  {"trace_seconds", picture.trace_seconds},
                  {"shade_seconds", picture.shade_seconds},
-                 {"denoise_seconds", denoise_seconds},
-                 {"write_seconds", write_seconds},
+                 {"gather_seconds", picture.gather_seconds},
+                 {"denoise_seconds", done.denoise_seconds},
+                 {"write_seconds", done.write_seconds},
                  {"rays", picture.rays_traced},
                  {"mrays_per_s", mrays},
                  {"dropped_samples", picture.dropped_samples},
-                 {"images", files}};
+                 {"images", done.files}};
     json["objects"] = Json::array();
     for (const UpdateReport& object : frame.update.objects) json["objects"].push_back(update_json(object));
     if (frame.update.top) json["top_level"] = update_json(*frame.update.top);
+    if (Json comparison = done.reference.figures(); !comparison.is_null()) json["comparison"] = std::move(comparison);
     rows_.push_back(std::move(json));
     width_ = picture.film.width();
     height_ = picture.film.height();

@@ -64,6 +64,14 @@ TEST(Frames, AreThePicturesOfTheirTimes) {
   EXPECT_EQ(run_command(directory, with_view({"-o", "f%d.exr", "--frames", "2:3", "--fps", "1"})).exit_code, 0);
   EXPECT_EQ(run_command(directory, with_view({"-o", "t.exr", "--time", "2", "--animation", "slide"})).exit_code, 0);
   EXPECT_TRUE(read_file(directory / "f2.exr") == read_file(directory / "t.exr"));
+  const CommandResult same =
+      run_command(directory, with_view({"-o", "g%d.png", "--frames", "2:4", "--fps", "1", "--compare", "t.exr", "--json", "g.json"}));
+  EXPECT_THAT(same.out, HasSubstr("RMSE 0,"));
+  const nlohmann::json frames = nlohmann::json::parse(read_file(directory / "g.json")).at("frames");
+  EXPECT_EQ(frames.at(0).at("comparison").at("rmse"), 0.0);
+  EXPECT_GT(frames.at(1).at("comparison").at("rmse"), 0.0) << "a second later";
+  EXPECT_EQ(run_command(directory, with_view({"-o", "g%d.png", "--frames", "2:3", "--fps", "1", "--compare", "f%d.exr"})).exit_code, 0);
+  expect_failure(run_command(directory, with_view({"-o", "g%d.png", "--frames", "2:4", "--compare", "f%d.exr"})), 1);
   // The animation is three seconds long.
   EXPECT_EQ(run_command(directory, with_view({"-o", "l.exr", "--time", "8", "--loop"})).exit_code, 0);
   EXPECT_TRUE(read_file(directory / "l.exr") == read_file(directory / "t.exr"));
@@ -79,6 +87,12 @@ TEST(Frames, TheCameraTurnsRoundAStillScene) {
   EXPECT_THAT(result.out, HasSubstr("nothing moved"));
   EXPECT_THAT(result.err, HasSubstr("has no animation"));
   EXPECT_FALSE(read_file(directory / "o0.exr") == read_file(directory / "o1.exr"));
+  // Half of the way round in one frame of two, or in the second of four.
+  const auto turn = [](const char* frames, const char* degrees) {
+    return command({"-o", "t%d.exr", "--frames", frames, "--camera", "orbit", "--turn", degrees}, "builtin:rings?size=2");
+  };
+  EXPECT_EQ(run_command(directory, turn("0:4", "720")).exit_code, 0);
+  EXPECT_TRUE(read_file(directory / "o1.exr") == read_file(directory / "t1.exr"));
 }
 
 TEST(Frames, ResumeLeavesOutWhatIsThere) {
@@ -125,6 +139,8 @@ TEST(Frames, WrongOptionsAreExplained) {
       {{"-o", "f%d.png", "--frames", "0:2", "--checkpoint", "c.film"}, "--resume"},
       {{"-o", "f.png", "--animation", "jump"}, "has no animation 'jump'; there are 0 'slide'"},
       {{"-o", "f.png", "--look-at", "0,0,0"}, "--eye"},
+      {{"-o", "f%d.png", "--frames", "0:2", "--turn", "9"}, "--camera orbit"},
+      {{"-o", "f%d.png", "--frames", "0:2", "--compare", "r%x.exr"}, "--compare: 'r%x.exr'"},
       {{"-o", "f.png", "--eye", "0,0"}, "three numbers"},
       {{"-o", "f.png", "--eye", "1,1,1", "--look-at", "1,1,1"}, "the eye is where it looks at"},
       {{"-o", "f.png", "--time", "1", "--update", "hope"}, "auto, refit, rotate, rebuild"},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "test_scenes.h"
 
@@ -29,6 +30,31 @@ TEST(DirectLight, PointLightFallsWithTheSquare) {
   const float distance_squared = 1.5F * 1.5F + 4.0F;
   const float expected = kAlbedo / kPi * 3.0F / distance_squared * (2.0F / std::sqrt(distance_squared));
   EXPECT_NEAR(testing::mean_radiance(look_at_floor(maker, 4)).y, expected, 1e-3F * expected);
+}
+
+// The window of KHR_lights_punctual.
+TEST(DirectLight, ARangeFadesPointLightsAndSpots) {
+  const auto measure = [](PunctualLightKind kind, float range) {
+    SceneMaker maker;
+    PunctualLight light;
+    light.kind = kind;
+    light.position = {0.0F, 2.0F, 0.0F};
+    light.direction = {0.0F, -1.0F, 0.0F};
+    light.intensity = Vec3(4.0F);
+    light.range = range;
+    maker.scene().lights.push_back(light);
+    return testing::mean_radiance(look_at_floor(maker, 4)).y;
+  };
+  const float full = kAlbedo / kPi * 4.0F / 4.0F;
+  for (const PunctualLightKind kind : {PunctualLightKind::point, PunctualLightKind::spot}) {
+    EXPECT_NEAR(measure(kind, std::numeric_limits<float>::infinity()), full, 1e-3F * full);
+    EXPECT_NEAR(measure(kind, 1e30F), full, 1e-3F * full);
+    EXPECT_NEAR(measure(kind, 4.0F), (1.0F - 1.0F / 16.0F) * full, 1e-3F * full);
+    EXPECT_NEAR(measure(kind, 2.5F), (1.0F - std::pow(0.8F, 4.0F)) * full, 1e-3F * full);
+    EXPECT_EQ(measure(kind, 1.9F), 0.0F);
+    EXPECT_EQ(measure(kind, 1e-30F), 0.0F);
+  }
+  EXPECT_GT(measure(PunctualLightKind::directional, 1.0F), 0.0F) << "comes from infinitely far, whatever the range";
 }
 
 TEST(DirectLight, DirectionalLightHasTheCosine) {

@@ -174,6 +174,42 @@ TEST(Furnace, VolumesAbsorbLightFromLampsInside) {
   EXPECT_NEAR(render(true) / render(false), std::pow(0.5F, 5.5F / 2.0F), 0.002F);
 }
 
+Material coated_lamp(float roughness) {
+  Material lamp;
+  lamp.base_colour.value = Vec3(0.0F);
+  lamp.specular.value = 0.0F;
+  lamp.emission.value = Vec3(3.0F);
+  lamp.coat.value = 0.5F;
+  lamp.coat_roughness.value = roughness;
+  return lamp;
+}
+
+// A clear coat takes from the light below what it reflects (KHR_materials_clearcoat): 0.04 seen straight on, more at grazing angles; none where it is not.
+TEST(Furnace, ClearCoatsDimWhatShinesBelow) {
+  for (const float degrees : {0.0F, 60.0F, 80.0F}) {
+    const float angle = degrees * kPi / 180.0F;
+    SceneMaker maker;
+    maker.quad({-50, -50, 0}, {100, 0, 0}, {0, 100, 0}, maker.material(coated_lamp(0.0F)));
+    maker.camera({3.0F * std::sin(angle), 0.0F, 3.0F * std::cos(angle)}, {0.0F, 0.0F, 0.0F}, 0.002F);
+    const float fresnel = 0.04F + 0.96F * std::pow(1.0F - std::cos(angle), 5.0F);
+    EXPECT_NEAR(testing::mean_radiance(testing::render_scene(maker.make(), testing::small_settings(4, 4, 0))).y,
+                3.0F * (1.0F - 0.5F * fresnel), 1e-3F)
+        << degrees;
+  }
+}
+
+// What the coat keeps back of a sky of the same brightness it sends back: nothing is lost, and the lamp looks like one without a coat.
+TEST(Furnace, CoatedLampsVanishInASkyAsBright) {
+  for (const float roughness : {0.0F, 0.6F}) {
+    SceneMaker maker;
+    maker.sphere({{0.0F, 0.0F, 0.0F}, 1.0F}, maker.material(coated_lamp(roughness)));
+    maker.scene().environment.radiance = Vec3(3.0F);
+    maker.camera({0.0F, 0.0F, 3.0F}, {0.0F, 0.0F, 0.0F}, 0.6F);
+    EXPECT_NEAR(testing::mean_radiance(testing::render_scene(maker.make(), testing::small_settings(16, 64, 1))).y, 3.0F, 0.02F)
+        << roughness;
+  }
+}
+
 // What glTF calls unlit: the same radiance from both sides, in the mesh's own colours.
 TEST(Furnace, UnlitSurfacesShowTheirVertexColours) {
   Material unlit = SceneMaker::lamp(Vec3(0.5F, 0.25F, 1.0F), true);

@@ -19,10 +19,20 @@ using ::testing::IsEmpty;
 constexpr std::uint32_t kGrid = 12;
 
 // A lit floor that bulges by a morph target (object 0), and a small quad (object 1) that flies over it from 1 s on.
-AnimatedScene moving_scene() {
+enum class Lit : std::uint8_t {
+  by_sky,
+  by_what_moves  ///< the quad shines, and a point light flies with it
+};
+
+AnimatedScene moving_scene(Lit lit = Lit::by_sky) {
   Scene scene;
   scene.materials.push_back(SceneMaker::diffuse(Vec3(0.7F)));
-  scene.environment.radiance = Vec3(1.0F);
+  if (lit == Lit::by_sky) {
+    scene.environment.radiance = Vec3(1.0F);
+  } else {
+    scene.materials.push_back(SceneMaker::lamp(Vec3(20.0F), true));
+    scene.lights.emplace_back().intensity = Vec3(0.1F);
+  }
   std::vector<Vec3> vertices;
   std::vector<Triangle> triangles;
   MorphTarget bulge;
@@ -43,6 +53,7 @@ AnimatedScene moving_scene() {
   };
   add(vertices, triangles);
   add({{-0.1F, 0, -0.1F}, {-0.1F, 0, 0.1F}, {0.1F, 0, 0.1F}, {0.1F, 0, -0.1F}}, {{0, 1, 2}, {0, 2, 3}});
+  if (lit == Lit::by_what_moves) scene.objects[1].parts[0].material = 1;
   scene.cameras.push_back(look_at({0, 2, 1.5F}, {0, 0, 0}, {0, 1, 0}, 0.6F));
   scene.validate("test scene");
 
@@ -55,6 +66,7 @@ AnimatedScene moving_scene() {
   animation.channels.push_back(
       {1, ChannelTarget::translation, {Interpolation::linear, false, 3, {1, 3}, {-0.3F, 0.3F, 0, 0.3F, 0.3F, 0.2F}}});
   animation.instances = {{1, 1, Mat4(1.0F)}};
+  if (lit == Lit::by_what_moves) animation.lights = {{0, 1, Mat4(1.0F)}};
   DeformableSurface surface;
   surface.vertices = vertices;
   surface.triangles = triangles;
@@ -63,8 +75,8 @@ AnimatedScene moving_scene() {
   return {std::move(scene), std::move(animation)};
 }
 
-Film picture_at(double time, const RenderSettings& settings) {
-  AnimatedScene scene = moving_scene();
+Film picture_at(double time, const RenderSettings& settings, Lit lit = Lit::by_sky) {
+  AnimatedScene scene = moving_scene(lit);
   scene.move_to(time);
   const SceneAccelerator accelerator(scene.scene(), "bvh");
   return render(scene.scene(), accelerator, settings).film;
@@ -84,6 +96,19 @@ TEST(FrameRenderer, FramesAreThePicturesOfTheirTimes) {
     for (std::size_t i = 0; i < std::size(times); ++i) {
       const RenderedFrame frame = renderer.render(settings, {times[i]});
       EXPECT_TRUE(same_bits(frame.picture.film, expected[i])) << spec << " at " << times[i];
+    }
+  }
+}
+
+TEST(FrameRenderer, LightsFollowWhatMoves) {
+  RenderSettings settings = small_settings(12, 2, 2);
+  const double times[] = {0.0, 0.5, 1.5, 2.5, 3.0};
+  AnimatedScene scene = moving_scene(Lit::by_what_moves);
+  FrameRenderer renderer(scene, "bvh", UpdatePolicy::automatic);
+  for (const LightSampling lights : {LightSampling::hierarchy, LightSampling::groups, LightSampling::power}) {
+    settings.lights = lights;
+    for (const double time : times) {
+      EXPECT_TRUE(same_bits(renderer.render(settings, {time}).picture.film, picture_at(time, settings, Lit::by_what_moves))) << time;
     }
   }
 }

@@ -88,6 +88,25 @@ TEST(Temporal, TendsToTheUnfilteredPictureWhenNothingMoves) {
   }
 }
 
+// Not each frame for itself is rid of what is rare and bright, else it would never come in.
+TEST(Temporal, LosesNothingOfWhatIsRareWhenNothingMoves) {
+  constexpr std::uint32_t kSide = 16;
+  const Scene scene = mixed_scene();
+  Sequence sequence(kSide, 4);
+  ColourImage sum(kSide, kSide);
+  for (int frame = 0; frame < 4; ++frame) {
+    (void)sequence.next(scene);
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) {
+      sum.pixels[i] += sequence.frame().film.mean(static_cast<std::uint32_t>(i % kSide), static_cast<std::uint32_t>(i / kSide)).radiance;
+    }
+  }
+  for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+    const PixelHistory& pixel = sequence.history(i % kSide, i / kSide);
+    const Vec3 mean = sum.pixels[i] / 4.0F;
+    EXPECT_LT(glm::length(pixel.reflected + pixel.emitted - mean), 1e-3F * (1.0F + glm::length(mean))) << i;
+  }
+}
+
 TEST(Temporal, CarriesSamplesAlongWithTheCamera) {
   constexpr std::uint32_t kSide = 40;
   Sequence sequence(kSide, 1);

@@ -57,6 +57,7 @@ TEST(Fingerprint, DiffersWhereAPictureMay) {
       {"instances", [](Scene& scene) { scene.instances.pop_back(); }},
       {"sheen", [](Scene& scene) { scene.materials[0].sheen_colour.value.x = 0.5F; }},
       {"coat", [](Scene& scene) { scene.materials[0].coat.value = 0.5F; }},
+      {"range of a light", [](Scene& scene) { scene.lights.back().range = 5.0F; }},
       {"attenuation", [](Scene& scene) { scene.materials[0].attenuation_distance = 1.0F; }},
       {"colour", [](Scene& scene) { scene.materials[0].base_colour.value.z += 0.01F; }},
       {"kind", [](Scene& scene) { scene.materials[0].kind = MaterialKind::interface; }},

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "scene/gltf_fixture.h"
@@ -233,6 +234,19 @@ TEST_F(GltfLook, PunctualLights) {
   EXPECT_EQ(scene.lights[1].outer_angle, 0.6F);
   EXPECT_EQ(scene.lights[2].kind, PunctualLightKind::directional);
   EXPECT_EQ(scene.lights[2].intensity, Vec3(3.0F));
+}
+
+TEST_F(GltfLook, RangesOfLightsAreAboveZero) {
+  file_.add_node({{"mesh", file_.add_triangle()}});
+  const Json lights = {
+      {{"type", "point"}, {"range", 7.5}}, {{"type", "spot"}, {"range", 0}}, {{"type", "point"}, {"range", -1}}, {{"type", "point"}}};
+  file_.json["extensions"] = {{"KHR_lights_punctual", {{"lights", lights}}}};
+  for (int i = 0; i < 4; ++i) file_.add_node({{"scale", {5, 5, 5}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+  const Scene scene = load();
+  ASSERT_EQ(scene.lights.size(), 4U);
+  EXPECT_EQ(scene.lights[0].range, 7.5F) << "whatever the scale of the node";
+  for (int i = 1; i < 4; ++i) EXPECT_EQ(scene.lights[i].range, std::numeric_limits<float>::infinity()) << i;
+  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("lights[1]")));
 }
 
 TEST_F(GltfLook, CamerasTurnAndMoveButDoNotScale) {

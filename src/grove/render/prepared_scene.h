@@ -4,6 +4,7 @@
 #include "grove/render/material/material_table.h"
 #include "grove/render/scene_accelerator.h"
 #include "grove/render/surface/surface_table.h"
+#include "grove/scene/animation/scene_changes.h"
 
 namespace grove {
 
@@ -13,6 +14,10 @@ struct PreparedScene {
       : scene(source), accelerator(structure.top()), surfaces(source), materials(source), lights(source, surfaces, sampling) {}
   PreparedScene(const PreparedScene&) = delete;  // the tables refer to each other
   PreparedScene& operator=(const PreparedScene&) = delete;
+
+  /// Follows the scene after it has moved as `changes` says: afterwards all is as if made anew, bit for bit. Materials and the picture of the environment do not move and are kept; surfaces are laid
+  /// out again where geometry moved, O(instances + parts), and lights are gathered again where they or what shines moved, O(lights log lights). Not while others use it.
+  void follow(const SceneChanges& changes);
 
   const Scene& scene;
   const Accelerator& accelerator;

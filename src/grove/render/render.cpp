@@ -238,23 +238,9 @@ class RenderJob {
   double shade_seconds_ = 0.0;
 };
 
-}  // namespace
-
-std::span<const std::string_view> integrator_names() {
-  return kIntegratorNames;
-}
-
-Integrator integrator_from_name(std::string_view name) {
-  std::string list;
-  for (std::size_t i = 0; i < kIntegratorNames.size(); ++i) {
-    if (name == kIntegratorNames[i]) return static_cast<Integrator>(i);
-    list += (i == 0 ? "" : ", ") + std::string(kIntegratorNames[i]);
-  }
-  throw UsageError("unknown integrator '" + std::string(name) + "'; choose one of " + list);
-}
-
-RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, const RenderSettings& settings,
-                    const ProgressReporter& progress, RenderCheckpoints checkpoints) {
+// `prepare` is called when nothing else can be found wrong.
+RenderResult render_prepared(const Scene& scene, const std::function<const PreparedScene&()>& prepare, const RenderSettings& settings,
+                             const ProgressReporter& progress, RenderCheckpoints checkpoints) {
   const Timer timer;
   const TimeLimit limit(settings.time_limit, settings.clock);
   const View view = choose_view(scene, settings);
@@ -272,7 +258,7 @@ RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, con
   if (result.film.width() != view.width || result.film.height() != view.height) throw UsageError("the earlier film is of another size");
 
   const CameraRays camera_rays(view.camera, view.width, view.height);
-  const PreparedScene world(scene, accelerator, settings.lights);
+  const PreparedScene& world = prepare();
   if (settings.integrator == Integrator::path && world.lights.has_default_sky()) {
     result.warnings.emplace_back("the scene has no light; lit by a default sky");
   }
@@ -341,15 +327,45 @@ RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, con
   }
   if (rounds.samples() == 0) total = done;
 
+  const Timer gathering;
   if (settings.gathering.first_hits) {
     result.first_hits =
         gather_first_hits(world, camera_rays, result.film, {settings.seed, result.part.first_sample}, settings.gathering.earlier);
+    result.gather_seconds += gathering.seconds();
   }
   take_stock();
   if (result.dropped_samples > 0) {
     result.warnings.push_back(std::to_string(result.dropped_samples) + " samples were not a number, infinite or negative, and left out");
   }
   return result;
+}
+
+}  // namespace
+
+std::span<const std::string_view> integrator_names() {
+  return kIntegratorNames;
+}
+
+Integrator integrator_from_name(std::string_view name) {
+  std::string list;
+  for (std::size_t i = 0; i < kIntegratorNames.size(); ++i) {
+    if (name == kIntegratorNames[i]) return static_cast<Integrator>(i);
+    list += (i == 0 ? "" : ", ") + std::string(kIntegratorNames[i]);
+  }
+  throw UsageError("unknown integrator '" + std::string(name) + "'; choose one of " + list);
+}
+
+RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, const RenderSettings& settings,
+                    const ProgressReporter& progress, RenderCheckpoints checkpoints) {
+  std::optional<PreparedScene> world;
+  const auto prepare = [&]() -> const PreparedScene& { return world.emplace(scene, accelerator, settings.lights); };
+  return render_prepared(scene, prepare, settings, progress, std::move(checkpoints));
+}
+
+RenderResult render(const PreparedScene& world, const RenderSettings& settings, const ProgressReporter& progress,
+                    RenderCheckpoints checkpoints) {
+  const auto prepared = [&]() -> const PreparedScene& { return world; };
+  return render_prepared(world.scene, prepared, settings, progress, std::move(checkpoints));
 }
 
 }  // namespace grove

@@ -99,6 +99,8 @@ struct RenderResult {
   double seconds = 0.0;
   /// What `seconds` went into, of which this much was spent before the first ray, on tables of materials and lights.
   double prepare_seconds = 0.0;
+  /// And this much after the last ray of the film, on what `GatheringSettings` asks for.
+  double gather_seconds = 0.0;
   /// Sums over threads, for rays that are traced in batches; 0 for others: within structures, and on all else that makes samples of hits.
   double trace_seconds = 0.0;
   double shade_seconds = 0.0;
@@ -133,5 +135,9 @@ struct RenderCheckpoints {
 /// settings, and what `save` throws.
 [[nodiscard]] RenderResult render(const Scene& scene, const SceneAccelerator& accelerator, const RenderSettings& settings,
                                   const ProgressReporter& progress = {}, RenderCheckpoints checkpoints = {});
+
+/// The same for a scene that is prepared already, whose way of choosing lights stands for that of the settings.
+[[nodiscard]] RenderResult render(const PreparedScene& world, const RenderSettings& settings, const ProgressReporter& progress = {},
+                                  RenderCheckpoints checkpoints = {});
 
 }  // namespace grove

@@ -139,13 +139,14 @@ void add_image(Hash& hash, const Image& image) {
 }
 
 void add_light(Hash& hash, const PunctualLight& light) {
-  const auto& [name, kind, position, direction, intensity, inner_angle, outer_angle] = light;
+  const auto& [name, kind, position, direction, intensity, inner_angle, outer_angle, range] = light;
   hash.add(kind);
   hash.add(position);
   hash.add(direction);
   hash.add(intensity);
   hash.add(inner_angle);
   hash.add(outer_angle);
+  hash.add(range);
 }
 
 void add_environment(Hash& hash, const Environment& environment) {

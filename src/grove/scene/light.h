@@ -21,6 +21,8 @@ struct PunctualLight {
   /// Spot only, radians from the axis: full strength inside inner, nothing outside outer, smooth between. inner < outer <= pi/2.
   float inner_angle = 0.0F;
   float outer_angle = 0.7853982F;
+  /// Point and spot, world units: the light fades to nothing at this distance, as `range_window` (render/light/punctual.h) says. Above 0; infinite: it goes on for ever.
+  float range = std::numeric_limits<float>::infinity();
 };
 
 enum class EnvironmentMapping : std::uint8_t {

@@ -9,7 +9,6 @@
 #include "grove/base/parallel.h"
 #include "grove/render/bsdf/bsdf_types.h"
 #include "grove/render/denoise/fireflies.h"
-#include "grove/render/denoise/noise_estimate.h"
 
 namespace grove {
 namespace {
@@ -32,8 +31,7 @@ TakenApart take_apart(const RenderResult& result) {
   GROVE_CHECK(result.first_hits);
   const Film& film = result.film;
   const std::size_t count = std::size_t{film.width()} * film.height();
-  TakenApart parts{Guides::of(film, *result.first_hits), Illumination(count), std::vector<Vec3>(count)};
-  std::vector<MeasuredNoise> measured(count);
+  TakenApart parts{Guides::of(film, *result.first_hits), Illumination(count), std::vector<MeasuredNoise>(count), std::vector<Vec3>(count)};
   parallel_for(film.height(), 4, [&](std::size_t row) {
     const auto y = static_cast<std::uint32_t>(row);
     for (std::uint32_t x = 0; x < film.width(); ++x) {
@@ -43,17 +41,32 @@ TakenApart take_apart(const RenderResult& result) {
       parts.emitted[i] = emitted;
       parts.light.set_colour(i, glm::max(film.mean(x, y).radiance - emitted, Vec3(0.0F)) / by);
       const float scale = 1.0F / luminance(by);
-      measured[i] = {scale * scale * film.variance_of_mean(x, y), film.pixel(x, y).sample_count >= 2, emitted == Vec3(0.0F)};
+      parts.noise[i] = {scale * scale * film.variance_of_mean(x, y), film.pixel(x, y).sample_count >= 2, emitted == Vec3(0.0F)};
     }
   });
-  limit_fireflies(measured, parts.guides, parts.light);
-  estimate_noise(measured, parts.guides, parts.light);
   return parts;
+}
+
+Illumination filter_light(Illumination light, std::vector<MeasuredNoise> noise, const Guides& guides, const FilterSettings& settings,
+                          BrightnessEvidence evidence) {
+  for (std::size_t i = 0; i < noise.size(); ++i) evidence.samples.variance[i] = noise[i].variance;
+  limit_fireflies(noise, guides, light);
+  estimate_noise(noise, guides, light);
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    // A single sample does not tell how sure it is, but its neighbours do.
+    if (noise[i].is_known) continue;
+    evidence.samples.variance[i] = light.variance[i];
+    if (evidence.has_newest()) evidence.newest.variance[i] = light.variance[i];
+  }
+  Illumination filtered = filter_a_trous(std::move(light), guides, settings);
+  keep_brightness(evidence, guides, filtered);
+  return filtered;
 }
 
 ColourImage denoise(const RenderResult& result, const FilterSettings& settings) {
   TakenApart parts = take_apart(result);
-  const Illumination light = filter_a_trous(std::move(parts.light), parts.guides, settings);
+  BrightnessEvidence evidence{parts.light, Illumination()};
+  const Illumination light = filter_light(std::move(parts.light), std::move(parts.noise), parts.guides, settings, std::move(evidence));
   ColourImage image = mean_colours(result.film);
   parallel_for(image.pixels.size(), 4096, [&](std::size_t i) {
     if (parts.guides.is_surface(i)) image.pixels[i] = light.colour(i) * divisor(parts.guides.albedo[i]) + parts.emitted[i];

@@ -14,9 +14,11 @@ bool shows_the_same(const PixelHistory& then, const FirstHit& hit, const Vec3& n
 
 void add(const PixelHistory& then, float weight, PixelHistory& sum) {
   sum.reflected += weight * then.reflected;
+  sum.unclamped += weight * then.unclamped;
   sum.albedo += weight * then.albedo;
   sum.emitted += weight * then.emitted;
-  sum.variance += weight * then.variance;
+  sum.sample_variance += weight * then.sample_variance;
+  sum.share += weight * then.share;
   sum.sample_count += weight * then.sample_count;
 }
 
@@ -77,9 +79,11 @@ PixelHistory reprojected(const FrameHistory& history, const FirstHit& hit, const
   }
   const float scale = 1.0F / weights;
   result.reflected *= scale;
+  result.unclamped *= scale;
   result.albedo *= scale;
   result.emitted *= scale;
-  result.variance *= scale;
+  result.sample_variance *= scale;
+  result.share *= scale;
   result.sample_count *= scale;
   return result;
 }

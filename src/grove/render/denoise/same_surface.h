@@ -19,6 +19,16 @@ namespace grove {
   return std::fabs(guides.depth[q] - guides.depth[p] - expected) <= kDepthTolerance * guides.depth[p] + std::fabs(expected);
 }
 
+/// Calls visit(q) for each pixel within `radius` rows and columns of pixel (x, y), and for that itself, row by row.
+template <typename Visit>
+void for_each_within(const Guides& guides, std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t radius, const Visit& visit) {
+  const auto width = static_cast<std::ptrdiff_t>(guides.width);
+  const auto height = static_cast<std::ptrdiff_t>(guides.height);
+  for (std::ptrdiff_t qy = std::max<std::ptrdiff_t>(0, y - radius); qy <= std::min(height - 1, y + radius); ++qy)
+    for (std::ptrdiff_t qx = std::max<std::ptrdiff_t>(0, x - radius); qx <= std::min(width - 1, x + radius); ++qx)
+      visit(static_cast<std::size_t>(qy * width + qx));
+}
+
 /// Calls visit(q) for pixel (x, y) itself and each pixel of its surface within `radius` rows and columns, row by row.
 template <typename Visit>
 void for_each_on_surface(const Guides& guides, std::ptrdiff_t x, std::ptrdiff_t y, std::ptrdiff_t radius, const Visit& visit) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "grove/base/parallel.h"
+#include "grove/render/bsdf/bsdf_types.h"
 #include "grove/render/denoise/reprojection.h"
 
 namespace grove {
@@ -58,14 +59,31 @@ Range albedo_nearby(const Guides& guides, std::uint32_t x, std::uint32_t y) {
   return range;
 }
 
-// Takes `weight` of the newer and the rest of the older. What both found out is independent, so that variances add with squared weights.
+float luminance_of(const PixelHistory& pixel) {
+  return luminance(pixel.reflected / divisor(pixel.albedo));
+}
+
+// The variance of one sample, from two sets of samples with what is known of each, and the distance of their means (Chan, Golub and LeVeque 1983, "Algorithms for Computing the Sample Variance").
+float pooled_variance(const PixelHistory& older, const PixelHistory& newer) {
+  const float all = older.sample_count + newer.sample_count;
+  if (!(all >= 2.0F)) return 0.0F;
+  const float apart = luminance_of(newer) - luminance_of(older);
+  const float deviations = std::max(older.sample_count - 1.0F, 0.0F) * older.sample_variance +
+                           std::max(newer.sample_count - 1.0F, 0.0F) * newer.sample_variance +
+                           older.sample_count * newer.sample_count / all * apart * apart;
+  return deviations / (all - 1.0F);
+}
+
+// Takes `weight` of the newer and the rest of the older. What both found out is independent, so that variances of means add with squared weights.
 PixelHistory blended(const PixelHistory& older, const PixelHistory& newer, float weight) {
   const float rest = 1.0F - weight;
   PixelHistory result = newer;
   result.reflected = rest * older.reflected + weight * newer.reflected;
+  result.unclamped = rest * older.unclamped + weight * newer.unclamped;
   result.albedo = rest * older.albedo + weight * newer.albedo;
   result.emitted = rest * older.emitted + weight * newer.emitted;
-  result.variance = rest * rest * older.variance + weight * weight * newer.variance;
+  result.sample_variance = pooled_variance(older, newer);
+  result.share = rest * rest * older.share + weight * weight * newer.share;
   result.sample_count = older.sample_count + newer.sample_count;
   return result;
 }
@@ -74,9 +92,12 @@ PixelHistory pixel_of(const TakenApart& frame, const FirstHit& hit, std::size_t 
   PixelHistory pixel;
   pixel.albedo = frame.guides.albedo[i];
   pixel.reflected = frame.light.colour(i) * divisor(pixel.albedo);
+  pixel.unclamped = pixel.reflected;
   pixel.emitted = frame.emitted[i];
-  pixel.variance = frame.light.variance[i];
   pixel.sample_count = sample_count;
+  pixel.share = sample_count > 0.0F ? 1.0F / sample_count : 0.0F;
+  // What was measured is the variance of the mean.
+  pixel.sample_variance = sample_count * frame.noise[i].variance;
   pixel.normal = {frame.guides.normal_x[i], frame.guides.normal_y[i], frame.guides.normal_z[i]};
   pixel.depth = hit.depth;
   pixel.geometry = hit.geometry;
@@ -127,11 +148,23 @@ ColourImage TemporalDenoiser::add(const RenderResult& frame, Movement movement) 
   history_ = std::move(next);
 
   const std::vector<PixelHistory>& pixels = history_.pixels;
+  BrightnessEvidence evidence{Illumination(pixels.size()), Illumination(movement == Movement::some ? pixels.size() : 0)};
   parallel_for(pixels.size(), 4096, [&](std::size_t i) {
-    parts.light.set_colour(i, pixels[i].reflected / divisor(pixels[i].albedo));
-    parts.light.variance[i] = pixels[i].variance;
+    const PixelHistory& pixel = pixels[i];
+    const Vec3 by = divisor(pixel.albedo);
+    evidence.samples.set_colour(i, pixel.unclamped / by);
+    if (movement == Movement::some) {
+      evidence.newest.set_colour(i, parts.light.colour(i));
+      const auto x = static_cast<std::uint32_t>(i % film.width());
+      const auto y = static_cast<std::uint32_t>(i / film.width());
+      evidence.newest.variance[i] = pixel.sample_variance / static_cast<float>(std::max(1U, film.pixel(x, y).sample_count));
+    }
+    parts.light.set_colour(i, pixel.reflected / by);
+    parts.noise[i].variance = pixel.share * pixel.sample_variance;
+    parts.noise[i].is_known = pixel.sample_count >= 2.0F;
   });
-  const Illumination light = filter_a_trous(std::move(parts.light), parts.guides, settings_.filter);
+  const Illumination light =
+      filter_light(std::move(parts.light), std::move(parts.noise), parts.guides, settings_.filter, std::move(evidence));
   ColourImage image(film.width(), film.height());
   parallel_for(pixels.size(), 4096, [&](std::size_t i) {
     const PixelHistory& pixel = pixels[i];

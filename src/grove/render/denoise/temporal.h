@@ -26,12 +26,13 @@ struct TemporalSettings {
 /// Frames one after the other with less noise than each has for itself: samples of earlier frames are carried along with the surface that they were taken on, and what noise is
 /// left is filtered. After SVGF (see a_trous.h) with these differences: means count samples and not frames; the variance of the accumulated light follows from those of its parts instead
 /// of from moments; history is clamped to what the frame shows nearby (after Salvi 2016, "An Excursion in Temporal Supersampling"), which takes ghosts of moved shadows away; and
-/// what the filter made is not fed back into the history, so that its bias does not pile up.
+/// what the filter made is not fed back into the history, so that its bias does not pile up. Fireflies are limited and noise is estimated in what has been accumulated, not in each frame, and
+/// the brightness that clamping takes is given back (brightness.h).
 ///
 /// As long as nothing moves, history is neither resampled, clamped nor limited: the unfiltered part is then the mean over the samples of all frames, exactly up to rounding, the
 /// variance falls as 1 / frames, and with it the strength of the filter, so that the pictures tend to the unfiltered one. Frames must have different seeds.
 ///
-/// Not for several threads at once; works in parallel in the caller's arena, with the same result for any number of threads. Memory: 68 bytes a pixel between frames.
+/// Not for several threads at once; works in parallel in the caller's arena, with the same result for any number of threads. Memory: 84 bytes a pixel between frames.
 class TemporalDenoiser {
  public:
   explicit TemporalDenoiser(const TemporalSettings& settings = {}) : settings_(settings) {}

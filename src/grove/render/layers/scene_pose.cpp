@@ -17,7 +17,7 @@ bool is_same(const SphereSet::Sphere& a, const SphereSet::Sphere& b) {
 
 bool is_same_light(const PunctualLight& a, const PunctualLight& b) {
   return a.kind == b.kind && a.position == b.position && a.direction == b.direction && a.intensity == b.intensity &&
-         a.inner_angle == b.inner_angle && a.outer_angle == b.outer_angle;
+         a.inner_angle == b.inner_angle && a.outer_angle == b.outer_angle && a.range == b.range;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "grove/render/bsdf/bsdf_types.h"
 #include "grove/render/light/punctual.h"
+#include "grove/render/material/gltf_surface.h"
 #include "grove/render/material/opacity.h"
 #include "grove/render/sampling/warp.h"
 #include "grove/render/surface/frame.h"
@@ -68,16 +69,26 @@ LightDescription describe(const PunctualLight& light, float strength) {
 
 }  // namespace
 
-LightTable::LightTable(const Scene& scene, const SurfaceTable& surfaces, LightSampling sampling) : scene_(&scene), surfaces_(&surfaces) {
-  Gathered gathered;
-  add_surfaces(gathered);
-  add_punctual(gathered);
+LightTable::LightTable(const Scene& scene, const SurfaceTable& surfaces, LightSampling sampling)
+    : scene_(&scene), surfaces_(&surfaces), sampling_(sampling) {
   if (scene.environment.is_on()) {
     const std::uint32_t image = scene.environment.image;
     environment_ = EnvironmentLight(scene.environment, image == 0xffffffffU ? nullptr : scene.images[image]);
-  } else if (lights_.empty()) {
-    environment_ = make_default_sky();
-    has_default_sky_ = true;
+  }
+  gather();
+}
+
+void LightTable::gather() {
+  lights_.clear();
+  first_part_.clear();
+  first_light_.clear();
+  environment_light_ = kInvalidId;
+  Gathered gathered;
+  add_surfaces(gathered);
+  add_punctual(gathered);
+  if (!scene_->environment.is_on() && has_default_sky_ != lights_.empty()) {
+    has_default_sky_ = lights_.empty();
+    environment_ = has_default_sky_ ? make_default_sky() : EnvironmentLight();
   }
   if (environment_.is_on()) {
     environment_light_ = static_cast<std::uint32_t>(lights_.size());
@@ -86,8 +97,8 @@ LightTable::LightTable(const Scene& scene, const SurfaceTable& surfaces, LightSa
     gathered.descriptions.emplace_back().bounds.intensity = irradiance;
     gathered.groups.push_back({.first = environment_light_, .count = 1, .box = {}, .strength = irradiance});
   }
-  const float scene_radius = sampling == LightSampling::power ? 0.5F * glm::length(scene.bounds().extent()) : 0.0F;
-  selection_ = LightSelection(sampling, gathered.descriptions, std::move(gathered.groups), scene_radius);
+  const float scene_radius = sampling_ == LightSampling::power ? 0.5F * glm::length(scene_->bounds().extent()) : 0.0F;
+  selection_ = LightSelection(sampling_, gathered.descriptions, std::move(gathered.groups), scene_radius);
 }
 
 void LightTable::add_punctual(Gathered& gathered) {
@@ -180,7 +191,8 @@ Vec3 LightTable::emitted(const SurfacePoint& point, const Vec3& direction) const
   const Material& material = scene_->materials[point.material];
   if (!material.is_emissive()) return Vec3(0.0F);
   if (!material.two_sided_emission && glm::dot(direction, point.geometric_normal) <= 0.0F) return Vec3(0.0F);
-  const Vec3 emission = evaluate(*scene_, material.emission, point.coordinates());
+  Vec3 emission = evaluate(*scene_, material.emission, point.coordinates());
+  if (material.coat.value > 0.0F) emission *= coat_transmittance(*scene_, material, point, direction);
   return material.emits_vertex_colour ? emission * Vec3(point.colour) : emission;
 }
 
@@ -225,7 +237,10 @@ LightSample LightTable::sample_punctual(const PunctualLight& light, const Vec3& 
   const float distance_squared = glm::dot(to_light, to_light);
   if (!(distance_squared > 0.0F)) return {};
   result.direction = to_light / std::sqrt(distance_squared);
-  result.radiance = light.intensity * (punctual_falloff(light, -result.direction) / distance_squared);
+  const float sent = punctual_falloff(light, -result.direction) * range_window(light, distance_squared);
+  // Beyond its range, or outside of its cone: no shadow ray.
+  if (!(sent > 0.0F)) return {};
+  result.radiance = light.intensity * (sent / distance_squared);
   result.target = light.position;
   return result;
 }

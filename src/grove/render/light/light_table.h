@@ -36,6 +36,12 @@ class LightTable {
   /// Refers to `scene` and `surfaces`. A scene without any light is given a sky. O(lights log lights), parallel in the caller's oneTBB arena.
   LightTable(const Scene& scene, const SurfaceTable& surfaces, LightSampling sampling = LightSampling::hierarchy);
 
+  /// Finds all lights again after some have moved. The environment is kept, which does not move: its table is most of the work. O(lights log lights), parallel in the caller's
+  /// oneTBB arena; not while others use the table.
+  void gather();
+
+  [[nodiscard]] LightSampling sampling() const { return sampling_; }
+
   [[nodiscard]] const EnvironmentLight& environment() const { return environment_; }
   /// Whether the sky is the default one.
   [[nodiscard]] bool has_default_sky() const { return has_default_sky_; }
@@ -89,6 +95,7 @@ class LightTable {
 
   const Scene* scene_;
   const SurfaceTable* surfaces_;
+  LightSampling sampling_;
   EnvironmentLight environment_;
   bool has_default_sky_ = false;
   std::vector<Light> lights_;

@@ -20,4 +20,12 @@ namespace grove {
   return x * x * (3.0F - 2.0F * x);
 }
 
+/// The part of a point light's or spot's intensity that is left at a distance, beside the inverse square: max(0, 1 - (distance / range)^4), as
+/// KHR_lights_punctual recommends ("Range Property"); 1 for a light of infinite range.
+[[nodiscard]] inline float range_window(const PunctualLight& light, float distance_squared) {
+  const float x = distance_squared / (light.range * light.range);
+  const float rest = 1.0F - x * x;
+  return rest > 0.0F ? rest : 0.0F;
+}
+
 }  // namespace grove

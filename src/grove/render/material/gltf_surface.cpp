@@ -1,6 +1,7 @@
 #include "grove/render/material/gltf_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include "grove/render/surface/perturb_normal.h"
@@ -73,7 +74,22 @@ Vec3 local_coat_normal(const Vec3& normal, const SurfaceView& view) {
   return glm::dot(local, view.wo) > kLeastCosine ? local : Vec3(0.0F, 0.0F, 1.0F);
 }
 
+// Light that leaves a volume is refracted there and not coated from within.
+bool is_inside_volume(const Material& material, bool is_outside) {
+  return !is_outside && !material.thin_walled && material.transmission.value > 0.0F;
+}
+
 }  // namespace
+
+float coat_transmittance(const Scene& scene, const Material& material, const SurfacePoint& point, const Vec3& direction) {
+  if (material.kind != MaterialKind::metallic_roughness) return 1.0F;
+  if (is_inside_volume(material, glm::dot(direction, point.geometric_normal) >= 0.0F)) return 1.0F;
+  const Parameters at(scene, point);
+  const float weight = at.number(material.coat);
+  if (!(weight > 0.0F)) return 1.0F;
+  const float cosine = std::min(1.0F, std::fabs(glm::dot(direction, coat_normal(scene, material, point))));
+  return 1.0F - weight * GlossyLayer{.alpha = at.alpha(material.coat_roughness)}.albedo(cosine).x;
+}
 
 float usable_ior(float ior) {
   return ior > 0.0F ? std::clamp(ior, kMinIor, kMaxIor) : 1.0F;
@@ -83,9 +99,7 @@ Bsdf gltf_bsdf(const Scene& scene, const Material& material, const SurfacePoint&
                const DielectricAlbedo* table, float u) {
   const Parameters at(scene, point);
   GltfLayersBsdf result{.core = core_of(material, point, at, view.is_outside, table, u)};
-  // Light that leaves a volume is refracted there and not coated from within.
-  const bool is_inside_volume = !view.is_outside && !material.thin_walled && material.transmission.value > 0.0F;
-  if (!is_inside_volume) {
+  if (!is_inside_volume(material, view.is_outside)) {
     const Vec3 sheen = material.sheen_colour.value == Vec3(0.0F) ? Vec3(0.0F) : at.reflectance(material.sheen_colour);
     if (max_component(sheen) > 0.0F)
       result.sheen = {.colour = sheen, .alpha = std::max(kLeastSheenAlpha, at.alpha(material.sheen_roughness))};

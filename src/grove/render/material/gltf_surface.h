@@ -19,6 +19,10 @@ struct SurfaceView {
 [[nodiscard]] Bsdf gltf_bsdf(const Scene& scene, const Material& material, const SurfacePoint& point, const SurfaceView& view,
                              const DielectricAlbedo* table, float u);
 
+/// The part of what a glTF material emits at `point` towards `direction` (unit length) that its clear coat lets out: what the coat does not reflect of light from there, which is
+/// KHR_materials_clearcoat's 1 - clearcoat * Fresnel where the coat is smooth. 1 without a coat, and on the inner side of a volume, which no coat lines.
+[[nodiscard]] float coat_transmittance(const Scene& scene, const Material& material, const SurfacePoint& point, const Vec3& direction);
+
 /// Where indices of refraction stop to mean anything; 1 for those that are none.
 [[nodiscard]] float usable_ior(float ior);
 

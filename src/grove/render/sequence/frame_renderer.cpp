@@ -23,7 +23,7 @@ FrameRenderer::FrameRenderer(AnimatedScene& scene, std::string_view spec, Update
 
 void FrameRenderer::follow(double time, RenderedFrame& frame) {
   const Timer posing;
-  const SceneChanges changes = scene_.move_to(time);
+  changes_ = scene_.move_to(time);
   frame.pose_seconds += posing.seconds();
   if (accelerator_ == nullptr) {
     const Timer building;
@@ -34,11 +34,21 @@ void FrameRenderer::follow(double time, RenderedFrame& frame) {
     frame.build_seconds = building.seconds();
     return;
   }
-  frame.moved_instances += static_cast<std::uint32_t>(changes.instances.size());
-  frame.moved_objects += static_cast<std::uint32_t>(changes.objects.size());
+  frame.moved_instances += static_cast<std::uint32_t>(changes_.instances.size());
+  frame.moved_objects += static_cast<std::uint32_t>(changes_.objects.size());
   const double seconds = frame.update.seconds;
-  frame.update = accelerator_->update(scene_.scene(), changes, policy_, rays_);
+  frame.update = accelerator_->update(scene_.scene(), changes_, policy_, rays_);
   frame.update.seconds += seconds;
+}
+
+double FrameRenderer::prepare(LightSampling sampling) {
+  const Timer timer;
+  if (world_ != nullptr && world_->lights.sampling() == sampling) {
+    world_->follow(changes_);
+  } else {
+    world_ = std::make_unique<PreparedScene>(scene_.scene(), *accelerator_, sampling);
+  }
+  return timer.seconds();
 }
 
 RenderedFrame FrameRenderer::render(RenderSettings settings, const Exposure& exposure, const ProgressReporter& progress,
@@ -60,6 +70,7 @@ RenderedFrame FrameRenderer::render(RenderSettings settings, const Exposure& exp
   for (std::uint32_t k = 0; k < times; ++k) {
     const double time = exposure.time + exposure.duration * (k + 0.5) / times;
     follow(time, frame);
+    const double prepare_seconds = prepare(settings.lights);
     if (viewpoint) settings.viewpoint = viewpoint(time);
     RenderCheckpoints so_far;
     if (times > 1) settings.part.end_sample = static_cast<std::uint32_t>(samples * (k + 1) / times);
@@ -69,7 +80,9 @@ RenderedFrame FrameRenderer::render(RenderSettings settings, const Exposure& exp
     if (progress.report) {
       part.report = [&, k](std::uint64_t done, std::uint64_t total) { progress.report(k * total + done, times * total); };
     }
-    frame.picture = grove::render(scene_.scene(), *accelerator_, settings, part, std::move(so_far));
+    frame.picture = grove::render(*world_, settings, part, std::move(so_far));
+    frame.picture.prepare_seconds += prepare_seconds;
+    frame.picture.seconds += prepare_seconds;
     rays_ = static_cast<double>(frame.picture.rays_traced - rays_before);
     keep_new(frame.picture.warnings, warnings);
     if (frame.picture.interrupted) break;

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "grove/render/prepared_scene.h"
 #include "grove/render/render.h"
 #include "grove/render/scene_accelerator.h"
 #include "grove/scene/animation/animated_scene.h"
@@ -54,12 +55,16 @@ class FrameRenderer {
 
  private:
   void follow(double time, RenderedFrame& frame);
+  /// Has tables of surfaces, materials and lights for where the scene is now. Returns the seconds that it took.
+  double prepare(LightSampling sampling);
 
   AnimatedScene& scene_;
   std::string spec_;
   UpdatePolicy policy_;
   std::unique_ptr<SceneAccelerator> accelerator_;
-  double rays_ = 0.0;  // that were traced from the last update to this one
+  std::unique_ptr<PreparedScene> world_;
+  SceneChanges changes_;  // since the tables were prepared
+  double rays_ = 0.0;     // that were traced from the last update to this one
 };
 
 }  // namespace grove

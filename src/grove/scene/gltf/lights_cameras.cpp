@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "grove/scene/animation/placement.h"
@@ -24,6 +25,7 @@ PunctualLight read_light(const JsonCursor& source) {
   light.name = source["name"].text();
   light.kind = read_kind(source["type"]);
   light.intensity = source["color"].vec3(Vec3(1.0F)) * source["intensity"].real(1.0F);
+  light.range = source["range"].real(light.range);
   const JsonCursor spot = source["spot"];
   const float outer = spot["outerConeAngle"].real(kPi / 4.0F);
   light.outer_angle = std::clamp(outer, 1e-4F, kWidestSpot);
@@ -47,6 +49,12 @@ void read_lights(GltfDocument& document, const GltfNodes& nodes, Scene& scene, G
     const auto id = named.index(lights.size(), "lights");
     if (!id) continue;
     PunctualLight light = read_light(lights.element(*id));
+    if (!(light.range > 0.0F)) {
+      light.range = std::numeric_limits<float>::infinity();
+      if (document.is_first("light range")) {
+        scene.warn("the range of a light must be above 0; those of others are taken for infinite, such as " + lights.element(*id).path());
+      }
+    }
     if (has_usable_intensity(light) && place_light(node.to_world, light)) {
       motion.follow_light(node.id, scene.lights.size());
       scene.lights.push_back(std::move(light));
