@@ -110,6 +110,7 @@ class Sequence {
  private:
   void prepare() {
     settings_ = command_.settings;
+    set_sky(command_.sky, scene_.scene());
     const View view = choose_view(scene_.scene(), settings_);
     aspect_ = static_cast<float>(view.width) / static_cast<float>(view.height);
     viewpoint_ = command_.plan.viewpoint;

@@ -10,6 +10,7 @@
 #include "frame_options.h"
 #include "interrupts.h"
 #include "options.h"
+#include "sky_option.h"
 
 namespace grove::app {
 
@@ -22,6 +23,7 @@ struct FrameCommand {
   const RenderSettings& settings;
   const std::string& integrator;
   const DenoiseOptions& denoise;
+  const SkyOption& sky;
   /// Writes a picture to these files, and says nothing. The settings are those it was made with.
   std::function<void(const std::vector<std::string>& files, const RenderResult&, const RenderSettings&, const Scene&,
                      const SceneAccelerator&)>

@@ -9,17 +9,23 @@
 namespace grove {
 namespace {
 
-// 8-bit sRGB to linear (IEC 61966-2-1).
-const std::array<float, 256>& srgb_table() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
+// What bytes stand for: linear light by sRGB (IEC 61966-2-1), or the plain fraction of 255.
+struct ByteTables {
+  std::array<float, 256> srgb{};
+  std::array<float, 256> plain{};
+};
+
+const ByteTables& byte_tables() {
+  static const ByteTables tables = [] {
+    ByteTables values;
+    for (std::size_t i = 0; i < values.srgb.size(); ++i) {
       const double encoded = static_cast<double>(i) / 255.0;
-      values[i] = static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+      values.srgb[i] = static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+      values.plain[i] = static_cast<float>(i) / 255.0F;
     }
     return values;
   }();
-  return table;
+  return tables;
 }
 
 // A texel index brought into [0, size); false where the wrap mode says that there is nothing.
@@ -47,23 +53,38 @@ bool wrap(TextureWrap mode, std::int64_t size, std::int64_t& i) {
   return false;
 }
 
-Vec4 texel(const Image& image, const Texture& texture, std::int64_t x, std::int64_t y) {
-  if (!wrap(texture.wrap_u, image.width, x) || !wrap(texture.wrap_v, image.height, y)) return Vec4(0.0F);
-  const std::size_t first = (static_cast<std::size_t>(y) * image.width + static_cast<std::size_t>(x)) * image.channels;
-  float value[4] = {0.0F, 0.0F, 0.0F, 1.0F};
-  const bool has_alpha = image.channels == 2 || image.channels == 4;
-  for (std::uint32_t c = 0; c < image.channels; ++c) {
-    if (image.is_float()) {
-      value[c] = image.floats[first + c];
-    } else {
-      const std::uint8_t byte = image.bytes[first + c];
-      const bool is_colour = !(has_alpha && c + 1 == image.channels);
-      value[c] = texture.srgb && is_colour ? srgb_table()[byte] : static_cast<float>(byte) / 255.0F;
+Vec4 grey(float value, float alpha) {
+  return {value, value, value, alpha};
+}
+
+// Texels of one image, by indices that are in it.
+class Texels {
+ public:
+  Texels(const Image& image, const Texture& texture)
+      : image_(image), plain_(byte_tables().plain.data()), colour_(texture.srgb ? byte_tables().srgb.data() : plain_) {}
+
+  [[nodiscard]] Vec4 at(std::int64_t x, std::int64_t y) const {
+    const std::size_t first = (static_cast<std::size_t>(y) * image_.width + static_cast<std::size_t>(x)) * image_.channels;
+    if (image_.is_float()) {
+      const float* const value = image_.floats.data() + first;
+      if (image_.channels <= 2) return grey(value[0], image_.channels == 2 ? value[1] : 1.0F);
+      return {value[0], value[1], value[2], image_.channels == 4 ? value[3] : 1.0F};
     }
+    const std::uint8_t* const byte = image_.bytes.data() + first;
+    if (image_.channels <= 2) return grey(colour_[byte[0]], image_.channels == 2 ? plain_[byte[1]] : 1.0F);
+    return {colour_[byte[0]], colour_[byte[1]], colour_[byte[2]], image_.channels == 4 ? plain_[byte[3]] : 1.0F};
   }
-  if (image.channels == 1) return {value[0], value[0], value[0], 1.0F};
-  if (image.channels == 2) return {value[0], value[0], value[0], value[1]};
-  return {value[0], value[1], value[2], value[3]};
+
+ private:
+  const Image& image_;
+  const float* plain_;
+  const float* colour_;
+};
+
+// std::floor without a call, for what fits into 63 bits.
+std::int64_t whole_part(double value) {
+  const auto truncated = static_cast<std::int64_t>(value);
+  return static_cast<double>(truncated) > value ? truncated - 1 : truncated;
 }
 
 Vec4 evaluate_image(const Image& image, const Texture& texture, const Vec2& uv) {
@@ -73,18 +94,29 @@ Vec4 evaluate_image(const Image& image, const Texture& texture, const Vec2& uv) 
   const double y = static_cast<double>(uv.y) * image.height;
   constexpr double kFar = 1e15;  // beyond this a double has no fraction left
   if (!(std::fabs(x) < kFar && std::fabs(y) < kFar)) return Vec4(0.0F);
+  const Texels texels(image, texture);
   if (texture.filter == TextureFilter::nearest) {
-    return texel(image, texture, static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(std::floor(y)));
+    std::int64_t column = whole_part(x);
+    std::int64_t row = whole_part(y);
+    if (!wrap(texture.wrap_u, image.width, column) || !wrap(texture.wrap_v, image.height, row)) return Vec4(0.0F);
+    return texels.at(column, row);
   }
   // Texel centres are at half-integers.
-  const double left = std::floor(x - 0.5);
-  const double top = std::floor(y - 0.5);
-  const auto fx = static_cast<float>(x - 0.5 - left);
-  const auto fy = static_cast<float>(y - 0.5 - top);
-  const auto x0 = static_cast<std::int64_t>(left);
-  const auto y0 = static_cast<std::int64_t>(top);
-  const Vec4 upper = texel(image, texture, x0, y0) * (1.0F - fx) + texel(image, texture, x0 + 1, y0) * fx;
-  const Vec4 lower = texel(image, texture, x0, y0 + 1) * (1.0F - fx) + texel(image, texture, x0 + 1, y0 + 1) * fx;
+  std::int64_t left = whole_part(x - 0.5);
+  std::int64_t top = whole_part(y - 0.5);
+  const auto fx = static_cast<float>(x - 0.5 - static_cast<double>(left));
+  const auto fy = static_cast<float>(y - 0.5 - static_cast<double>(top));
+  std::int64_t right = left + 1;
+  std::int64_t bottom = top + 1;
+  const bool has_left = wrap(texture.wrap_u, image.width, left);
+  const bool has_right = wrap(texture.wrap_u, image.width, right);
+  const bool has_top = wrap(texture.wrap_v, image.height, top);
+  const bool has_bottom = wrap(texture.wrap_v, image.height, bottom);
+  const Vec4 nothing(0.0F);
+  const Vec4 upper = (has_top && has_left ? texels.at(left, top) : nothing) * (1.0F - fx) +
+                     (has_top && has_right ? texels.at(right, top) : nothing) * fx;
+  const Vec4 lower = (has_bottom && has_left ? texels.at(left, bottom) : nothing) * (1.0F - fx) +
+                     (has_bottom && has_right ? texels.at(right, bottom) : nothing) * fx;
   return upper * (1.0F - fy) + lower * fy;
 }
 
