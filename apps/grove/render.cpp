@@ -141,8 +141,8 @@ int run_frames(const RenderOptions& options, Interrupts& interrupts, const Conso
     write_pictures(files, result, {.display = options.display.settings, .layers = options.layers.layers}, header, Console(true));
   };
   return render_frames(
-      {options, options.frames, options.plan, options.pictures, options.settings, options.integrator, options.denoise, options.sky, write}, interrupts,
-      console);
+      {options, options.frames, options.plan, options.pictures, options.settings, options.integrator, options.denoise, options.sky, write},
+      interrupts, console);
 }
 
 // The scene as it is read, or at the time that is asked for; a viewpoint goes into the settings.

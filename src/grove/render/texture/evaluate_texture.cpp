@@ -75,6 +75,17 @@ class Texels {
     return {colour_[byte[0]], colour_[byte[1]], colour_[byte[2]], image_.channels == 4 ? plain_[byte[3]] : 1.0F};
   }
 
+  // One of the four numbers of `at`.
+  [[nodiscard]] float channel(std::int64_t x, std::int64_t y, std::uint32_t channel) const {
+    const bool is_alpha = channel == 3;
+    const bool has_alpha = image_.channels == 2 || image_.channels == 4;
+    if (is_alpha && !has_alpha) return 1.0F;
+    const std::uint32_t place = is_alpha ? image_.channels - 1 : (image_.channels <= 2 ? 0 : channel);
+    const std::size_t i = (static_cast<std::size_t>(y) * image_.width + static_cast<std::size_t>(x)) * image_.channels + place;
+    if (image_.is_float()) return image_.floats[i];
+    return (is_alpha ? plain_ : colour_)[image_.bytes[i]];
+  }
+
  private:
   const Image& image_;
   const float* plain_;
@@ -87,19 +98,20 @@ std::int64_t whole_part(double value) {
   return static_cast<double>(truncated) > value ? truncated - 1 : truncated;
 }
 
-Vec4 evaluate_image(const Image& image, const Texture& texture, const Vec2& uv) {
-  if (image.width == 0 || image.height == 0 || (image.bytes.empty() && image.floats.empty())) return Vec4(0.0F);
+// Filters what `read` tells of texels, a Value for a column and a row; where there is nothing that is 0.
+template <typename Value, typename Read>
+Value filtered(const Image& image, const Texture& texture, const Vec2& uv, const Read& read) {
+  const Value nothing(0.0F);
   // In double, so that far-off coordinates of repeated textures keep their place within a texel.
   const double x = static_cast<double>(uv.x) * image.width;
   const double y = static_cast<double>(uv.y) * image.height;
   constexpr double kFar = 1e15;  // beyond this a double has no fraction left
-  if (!(std::fabs(x) < kFar && std::fabs(y) < kFar)) return Vec4(0.0F);
-  const Texels texels(image, texture);
+  if (!(std::fabs(x) < kFar && std::fabs(y) < kFar)) return nothing;
   if (texture.filter == TextureFilter::nearest) {
     std::int64_t column = whole_part(x);
     std::int64_t row = whole_part(y);
-    if (!wrap(texture.wrap_u, image.width, column) || !wrap(texture.wrap_v, image.height, row)) return Vec4(0.0F);
-    return texels.at(column, row);
+    if (!wrap(texture.wrap_u, image.width, column) || !wrap(texture.wrap_v, image.height, row)) return nothing;
+    return read(column, row);
   }
   // Texel centres are at half-integers.
   std::int64_t left = whole_part(x - 0.5);
@@ -112,12 +124,35 @@ Vec4 evaluate_image(const Image& image, const Texture& texture, const Vec2& uv) 
   const bool has_right = wrap(texture.wrap_u, image.width, right);
   const bool has_top = wrap(texture.wrap_v, image.height, top);
   const bool has_bottom = wrap(texture.wrap_v, image.height, bottom);
-  const Vec4 nothing(0.0F);
-  const Vec4 upper = (has_top && has_left ? texels.at(left, top) : nothing) * (1.0F - fx) +
-                     (has_top && has_right ? texels.at(right, top) : nothing) * fx;
-  const Vec4 lower = (has_bottom && has_left ? texels.at(left, bottom) : nothing) * (1.0F - fx) +
-                     (has_bottom && has_right ? texels.at(right, bottom) : nothing) * fx;
+  const Value upper =
+      (has_top && has_left ? read(left, top) : nothing) * (1.0F - fx) + (has_top && has_right ? read(right, top) : nothing) * fx;
+  const Value lower = (has_bottom && has_left ? read(left, bottom) : nothing) * (1.0F - fx) +
+                      (has_bottom && has_right ? read(right, bottom) : nothing) * fx;
   return upper * (1.0F - fy) + lower * fy;
+}
+
+bool has_texels(const Image& image) {
+  return image.width > 0 && image.height > 0 && !(image.bytes.empty() && image.floats.empty());
+}
+
+Vec2 place_in(const Texture& texture, const TextureCoordinates& uv) {
+  return Vec2(texture.uv_transform * Vec3(uv.of(texture.uv_set), 1.0F));
+}
+
+Vec4 evaluate_image(const Image& image, const Texture& texture, const Vec2& uv) {
+  if (!has_texels(image)) return Vec4(0.0F);
+  const Texels texels(image, texture);
+  return filtered<Vec4>(image, texture, uv, [&](std::int64_t x, std::int64_t y) { return texels.at(x, y); });
+}
+
+// One channel of an image, as evaluate_texture has it.
+float evaluate_channel(const Image& image, const Texture& texture, const Vec2& uv, std::uint32_t channel) {
+  float value = 0.0F;
+  if (has_texels(image)) {
+    const Texels texels(image, texture);
+    value = filtered<float>(image, texture, uv, [&](std::int64_t x, std::int64_t y) { return texels.channel(x, y, channel); });
+  }
+  return (texture.invert ? 1.0F - value : value) * texture.value[0][static_cast<int>(channel)];
 }
 
 Vec4 operand(const Scene& scene, const Texture& texture, int i, const TextureCoordinates& uv) {
@@ -133,12 +168,11 @@ Vec4 evaluate_texture(const Scene& scene, std::uint32_t texture_id, const Textur
     case TextureKind::constant:
       return texture.value[0];
     case TextureKind::image: {
-      const Vec2 place = Vec2(texture.uv_transform * Vec3(uv.of(texture.uv_set), 1.0F));
-      const Vec4 value = evaluate_image(*scene.images[texture.image], texture, place);
+      const Vec4 value = evaluate_image(*scene.images[texture.image], texture, place_in(texture, uv));
       return (texture.invert ? Vec4(1.0F) - value : value) * texture.value[0];
     }
     case TextureKind::checkerboard: {
-      const Vec2 place = Vec2(texture.uv_transform * Vec3(uv.of(texture.uv_set), 1.0F));
+      const Vec2 place = place_in(texture, uv);
       const float cells = std::floor(place.x) + std::floor(place.y);
       return operand(scene, texture, std::fmod(cells, 2.0F) == 0.0F ? 0 : 1, uv);
     }
@@ -159,7 +193,12 @@ Vec3 evaluate(const Scene& scene, const ColourParameter& parameter, const Textur
 
 float evaluate(const Scene& scene, const ScalarParameter& parameter, const TextureCoordinates& uv) {
   if (parameter.texture == kNoTexture) return parameter.value;
-  return parameter.value * evaluate_texture(scene, parameter.texture, uv)[static_cast<int>(std::min(parameter.channel, 3U))];
+  const std::uint32_t channel = std::min(parameter.channel, 3U);
+  const Texture& texture = scene.textures[parameter.texture];
+  if (texture.kind == TextureKind::image) {
+    return parameter.value * evaluate_channel(*scene.images[texture.image], texture, place_in(texture, uv), channel);
+  }
+  return parameter.value * evaluate_texture(scene, parameter.texture, uv)[static_cast<int>(channel)];
 }
 
 float mean_luminance(const Scene& scene, const ColourParameter& parameter) {
