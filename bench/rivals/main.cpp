@@ -71,6 +71,9 @@ int run(int argc, char** argv) {
       ->delimiter(',')
       ->allow_extra_args(false);
   app.add_option("--rays", settings.rays, "rays of each kind")->check(CLI::Range(1, 100'000'000))->capture_default_str();
+  app.add_option("--samples", settings.samples_per_pixel, "primary rays of a pixel, one after another: with several they are coherent")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
   app.add_option("--rounds", settings.rounds, "rounds of tracing")->check(CLI::Range(1, 1000))->capture_default_str();
   app.add_option("--build-rounds", settings.build_rounds, "rounds of building")->check(CLI::Range(1, 1000))->capture_default_str();
   app.add_flag("--one-thread", options.is_one_thread, "measure on one pinned thread only, not on all as well");
@@ -86,6 +89,7 @@ int run(int argc, char** argv) {
   report["machine"] = {
       {"cpu", machine.cpu}, {"cores", machine.cores}, {"compiler", machine.compiler}, {"commit", machine.commit}, {"os", machine.os}};
   report["rays"] = settings.rays;
+  report["samples_per_pixel"] = settings.samples_per_pixel;
   report["rounds"] = settings.rounds;
   report["build_rounds"] = settings.build_rounds;
   report["threads"] = settings.threads;

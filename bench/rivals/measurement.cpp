@@ -176,7 +176,7 @@ SceneResult measure_scene(const std::string& source, const MeasureSettings& sett
   const SceneAccelerator accelerator(scene, "bvh");
   const Camera camera = workload_camera(scene, "");
   for (const RayKind kind : settings.kinds) {
-    const std::vector<Ray> rays = make_rays(kind, scene, accelerator, camera, {settings.rays, 2});
+    const std::vector<Ray> rays = make_rays(kind, scene, accelerator, camera, {settings.rays, 2, settings.samples_per_pixel});
     measure_kind(*mesh, contenders, kind, rays, settings, result);
   }
   return result;

@@ -13,8 +13,9 @@ struct MeasureSettings {
   /// Grove's that are asked in every way, the first of which is what others must agree with; `bvh` is asked about single rays beside them.
   std::vector<std::string> structures = {"fast"};
   std::vector<RayKind> kinds;
-  std::size_t rays = 200'000;  ///< of each kind
-  int rounds = 5;              ///< of tracing
+  std::size_t rays = 200'000;         ///< of each kind
+  std::size_t samples_per_pixel = 1;  ///< of primary rays
+  int rounds = 5;                     ///< of tracing
   int build_rounds = 3;
   int threads = 1;  ///< what "all" means
 };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <tuple>
 
 #include "grove/base/error.h"
@@ -14,6 +15,7 @@
 #include "registry/matrix_geometry.h"
 #include "registry/matrix_rays.h"
 #include "registry/matrix_specs.h"
+#include "registry/refusals.h"
 
 namespace grove::test {
 namespace {
@@ -46,29 +48,63 @@ std::vector<Ray> with_long_and_short_directions(std::vector<Ray> rays) {
   return rays;
 }
 
+// Each ray with neighbours that go nearly its way, so that kernels may take them side by side; some end early.
+std::vector<Ray> with_neighbours(std::span<const Ray> rays, std::size_t neighbours) {
+  std::vector<Ray> all;
+  all.reserve(rays.size() * (1 + neighbours));
+  Random random(4);
+  for (const Ray& ray : rays) {
+    all.push_back(ray);
+    const bool is_fan = random.next_u32(2) == 0;
+    for (std::size_t i = 0; i < neighbours; ++i) {
+      Ray near = ray;
+      for (int axis = 0; axis < 3; ++axis) {
+        near.direction[axis] *= random.next_float(0.99F, 1.01F);
+        if (!is_fan) near.origin[axis] += random.next_float(-0.005F, 0.005F);
+      }
+      if (random.next_u32(8) == 0) near.t_max = random.next_float();
+      all.push_back(near);
+    }
+  }
+  return all;
+}
+
+void expect_hits_of_brute_force(const NamedGeometry& named, const Accelerator& structure, std::span<const Ray> rays,
+                                std::span<const std::size_t> batches) {
+  std::vector<Hit> expected(rays.size());
+  build(named.geometry, "brute")->intersect(rays, expected, {});
+  for (const std::size_t batch : batches) {
+    std::vector<Hit> hits(rays.size());
+    std::vector<std::uint8_t> results(rays.size(), 7);
+    for (std::size_t first = 0; first < rays.size(); first += batch) {
+      const std::size_t count = std::min(batch, rays.size() - first);
+      structure.intersect({rays.data() + first, count}, {hits.data() + first, count}, {});
+      structure.occluded({rays.data() + first, count}, {results.data() + first, count}, {});
+    }
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_TRUE(same_bits(hits[i], expected[i]))
+          << named.name << ", batches of " << batch << ", ray " << i << ": t " << hits[i].t << " and " << expected[i].t << ", primitives "
+          << hits[i].primitive << " and " << expected[i].primitive;
+      ASSERT_EQ(results[i], expected[i] ? 1 : 0) << named.name << ", batches of " << batch << ", ray " << i;
+    }
+  }
+}
+
 TEST_P(FastBatch, FindsWhatBruteForceFinds) {
   for (const NamedGeometry& named : matrix_geometries()) {
     if (!std::holds_alternative<std::shared_ptr<const TriangleMesh>>(named.geometry)) continue;
-    const auto oracle = build(named.geometry, "brute");
-    const auto structure = build(named.geometry, spec());
     const std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(named.geometry, 40, 9));
-    std::vector<Hit> expected(rays.size());
-    oracle->intersect(rays, expected, {});
-    for (const std::size_t batch : {std::size_t{1}, std::size_t{5}, std::size_t{49}, rays.size()}) {
-      std::vector<Hit> hits(rays.size());
-      std::vector<std::uint8_t> results(rays.size(), 7);
-      for (std::size_t first = 0; first < rays.size(); first += batch) {
-        const std::size_t count = std::min(batch, rays.size() - first);
-        structure->intersect({rays.data() + first, count}, {hits.data() + first, count}, {});
-        structure->occluded({rays.data() + first, count}, {results.data() + first, count}, {});
-      }
-      for (std::size_t i = 0; i < rays.size(); ++i) {
-        ASSERT_TRUE(same_bits(hits[i], expected[i]))
-            << named.name << ", batches of " << batch << ", ray " << i << ": t " << hits[i].t << " and " << expected[i].t << ", primitives "
-            << hits[i].primitive << " and " << expected[i].primitive;
-        ASSERT_EQ(results[i], expected[i] ? 1 : 0) << named.name << ", batches of " << batch << ", ray " << i;
-      }
-    }
+    const std::size_t batches[] = {1, 5, 49, rays.size()};
+    expect_hits_of_brute_force(named, *build(named.geometry, spec()), rays, batches);
+  }
+}
+
+TEST_P(FastBatch, FindsWhatBruteForceFindsForRaysSideBySide) {
+  for (const NamedGeometry& named : matrix_geometries()) {
+    if (!std::holds_alternative<std::shared_ptr<const TriangleMesh>>(named.geometry)) continue;
+    const std::vector<Ray> rays = with_neighbours(matrix_rays(named.geometry, 2, 13), 31);
+    const std::size_t batches[] = {32, 100, rays.size()};
+    expect_hits_of_brute_force(named, *build(named.geometry, spec()), rays, batches);
   }
 }
 
@@ -89,6 +125,95 @@ TEST_P(FastBatch, SingleRaysFindTheSame) {
     EXPECT_GT(counts.nodes_visited, 0U) << named.name;
     EXPECT_GE(counts.primitives_tested, counts.leaves_entered) << named.name;
   }
+}
+
+bool refuse_half_of_ray(void* /*context*/, std::size_t ray, const Hit& hit) {
+  return is_in_half(hit, static_cast<std::uint32_t>(ray));
+}
+
+// Twelve of the meshes in `geometries`, each built by `spec`, under different transforms that let them overlap.
+GeometryPointer instances_of(const std::vector<GeometryPointer>& geometries, const std::string& spec) {
+  std::vector<std::shared_ptr<const Accelerator>> objects;
+  objects.reserve(geometries.size());
+  for (const GeometryPointer& geometry : geometries) objects.emplace_back(build(geometry, spec));
+  std::vector<InstanceSet::Instance> instances;
+  for (std::size_t i = 0; i < 12; ++i) {
+    Mat4 matrix(1.0F);
+    const float step = 0.15F * static_cast<float>(i);
+    matrix[0] = Vec4(std::cos(step), std::sin(step), 0, 0);
+    matrix[1] = Vec4(-std::sin(step), std::cos(step), 0, 0);
+    matrix[3] = Vec4(step, 0.5F * step, 0, 1);
+    instances.push_back({objects[i % objects.size()], Transform(matrix)});
+  }
+  return std::make_shared<const InstanceSet>(std::move(instances));
+}
+
+// Structures over the same, the first by brute force.
+struct Filtered {
+  std::string name;
+  std::unique_ptr<Accelerator> oracle;
+  std::unique_ptr<Accelerator> structure;
+  GeometryPointer geometry;
+};
+
+std::vector<Filtered> filtered(const std::string& spec) {
+  std::vector<Filtered> all;
+  std::vector<GeometryPointer> meshes;
+  for (const NamedGeometry& named : matrix_geometries()) {
+    if (!std::holds_alternative<std::shared_ptr<const TriangleMesh>>(named.geometry)) continue;
+    all.push_back({named.name, build(named.geometry, "brute"), build(named.geometry, spec), named.geometry});
+    if (size_of(named.geometry) > 100) meshes.push_back(named.geometry);
+  }
+  const GeometryPointer top = instances_of(meshes, spec);
+  all.push_back({"instances", build(instances_of(meshes, "brute"), "brute"), build(top, spec), top});
+  return all;
+}
+
+TEST_P(FastBatch, FindsWhatAFilterLeaves) {
+  const BatchHitFilter filter(refuse_half_of_ray, nullptr);
+  std::size_t hit_count = 0;
+  for (const Filtered& of : filtered(spec())) {
+    const std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(of.geometry, 12, 13));
+    std::vector<Hit> hits(rays.size());
+    std::vector<std::uint8_t> results(rays.size(), 7);
+    of.structure->intersect(rays, hits, filter);
+    of.structure->occluded(rays, results, filter);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      FilterOfOneRay of_one(filter, i);
+      const Hit expected = of.oracle->closest_hit(rays[i], of_one.filter());
+      hit_count += expected ? 1 : 0;
+      ASSERT_TRUE(same_bits(hits[i], expected)) << of.name << ", ray " << i << ": t " << hits[i].t << " and " << expected.t;
+      ASSERT_TRUE(same_bits(of.structure->closest_hit(rays[i], of_one.filter()), expected)) << of.name << ", single ray " << i;
+      ASSERT_EQ(results[i], expected ? 1 : 0) << of.name << ", any hit of ray " << i;
+      ASSERT_EQ(of.structure->any_hit(rays[i], of_one.filter()), static_cast<bool>(expected)) << of.name << ", any hit of single ray " << i;
+    }
+  }
+  EXPECT_GT(hit_count, 1000U);
+}
+
+// Light that passes many surfaces is weakened by each: any hit must ask about all that lie on the ray.
+TEST_P(FastBatch, AsksAboutAllThatIsRefused) {
+  std::size_t most = 0;
+  for (const Filtered& of : filtered(spec())) {
+    const std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(of.geometry, 6, 14));
+    RefuseAll on_the_rays;
+    RefuseAll asked;
+    RefuseAll asked_in_batch;
+    std::vector<std::uint8_t> results(rays.size(), 7);
+    of.structure->occluded(rays, results, asked_in_batch.batch_filter());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      EXPECT_EQ(results[i], 0) << of.name << ", ray " << i;
+      FilterOfOneRay all(on_the_rays.batch_filter(), i);
+      EXPECT_FALSE(of.oracle->any_hit(rays[i], all.filter()));
+      FilterOfOneRay some(asked.batch_filter(), i);
+      EXPECT_FALSE(of.structure->any_hit(rays[i], some.filter()));
+    }
+    most = std::max(most, on_the_rays.asked().size());
+    EXPECT_TRUE(asked.asked() == on_the_rays.asked()) << of.name << ": " << asked.asked().size() << " of " << on_the_rays.asked().size();
+    EXPECT_TRUE(asked_in_batch.asked() == on_the_rays.asked())
+        << of.name << ", in batches: " << asked_in_batch.asked().size() << " of " << on_the_rays.asked().size();
+  }
+  EXPECT_GT(most, 1000U);
 }
 
 TEST_P(FastBatch, CountsTheSameInAnyBatch) {
@@ -122,6 +247,19 @@ TEST_P(FastBatch, TrianglesInFloatsAreHitTheSameInAnyBatch) {
     EXPECT_EQ(results[i], hits[i] ? 1 : 0) << "ray " << i;
     EXPECT_EQ(structure->occluded(rays[i]), static_cast<bool>(hits[i])) << "ray " << i;
   }
+  const BatchHitFilter filter(refuse_half_of_ray, nullptr);
+  structure->intersect(rays, hits, filter);
+  structure->occluded(rays, results, filter);
+  std::size_t hit_count = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    FilterOfOneRay of_one(filter, i);
+    EXPECT_TRUE(same_bits(hits[i], structure->closest_hit(rays[i], of_one.filter()))) << "filtered ray " << i;
+    EXPECT_TRUE(!hits[i] || of_one(hits[i])) << "filtered ray " << i;
+    EXPECT_EQ(results[i], hits[i] ? 1 : 0) << "filtered ray " << i;
+    EXPECT_EQ(structure->any_hit(rays[i], of_one.filter()), static_cast<bool>(hits[i])) << "filtered ray " << i;
+    hit_count += hits[i] ? 1 : 0;
+  }
+  EXPECT_GT(hit_count, rays.size() / 10);
 }
 
 // And hits are where brute force has them, but for a few at edges.

@@ -11,6 +11,7 @@
 #include "registry/matrix_geometry.h"
 #include "registry/matrix_rays.h"
 #include "registry/matrix_specs.h"
+#include "registry/refusals.h"
 
 namespace grove::test {
 namespace {
@@ -106,22 +107,38 @@ void expect_equal_hits(const Accelerator& structure, const Accelerator& oracle, 
   EXPECT_EQ(differences, 0U) << "of " << rays.size() << " rays";
 }
 
-// Refuses about half of what there is, by number: the far sides of spheres and all that lies behind come to light.
 bool refuse_half(void* /*context*/, const Hit& hit) {
-  std::uint32_t mixed = hit.primitive * 0x9e3779b9U ^ (hit.geometry + 1U) * 0x85ebca6bU ^ (hit.instance + 1U) * 0xc2b2ae35U;
-  // Which side of a sphere it is must count as well.
-  mixed ^= hit.u > 0.5F ? 0x40000000U : 0U;
-  return ((mixed ^ mixed >> 15) * 0x2c1b3c6dU >> 30 & 1U) != 0;
+  return is_in_half(hit);
+}
+
+// Each ray of a batch has a filter of its own: the half that is refused differs.
+bool refuse_half_of_ray(void* /*context*/, std::size_t ray, const Hit& hit) {
+  return is_in_half(hit, static_cast<std::uint32_t>(ray));
 }
 
 void expect_equal_filtered_hits(const Accelerator& structure, const Accelerator& oracle, const std::vector<Ray>& rays) {
+  const BatchHitFilter filter(refuse_half_of_ray, nullptr);
+  std::vector<Hit> hits(rays.size());
+  std::vector<std::uint8_t> occluded(rays.size(), 7);
+  structure.intersect(rays, hits, filter);
+  structure.occluded(rays, occluded, filter);
   std::size_t differences = 0;
-  for (const Ray& ray : rays) {
-    const Hit expected = oracle.closest_hit(ray, HitFilter{refuse_half});
-    const Hit found = structure.closest_hit(ray, HitFilter{refuse_half});
-    const bool any = structure.any_hit(ray, HitFilter{refuse_half});
-    if (same_bits(expected, found) && any == static_cast<bool>(expected)) continue;
-    if (++differences <= 3) ADD_FAILURE() << describe(ray) << "\n  expected " << describe(expected) << "\n  found    " << describe(found);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Ray& ray = rays[i];
+    FilterOfOneRay of_one(filter, i);
+    const Hit expected = oracle.closest_hit(ray, of_one.filter());
+    const Hit found = structure.closest_hit(ray, of_one.filter());
+    const bool any = structure.any_hit(ray, of_one.filter());
+    RefuseAll on_the_ray;
+    RefuseAll asked;
+    const bool goes_on = !oracle.any_hit(ray, on_the_ray.filter()) && !structure.any_hit(ray, asked.filter());
+    if (same_bits(expected, found) && same_bits(expected, hits[i]) && any == static_cast<bool>(expected) &&
+        occluded[i] == (expected ? 1 : 0) && goes_on && on_the_ray.asked() == asked.asked())
+      continue;
+    if (++differences <= 3)
+      ADD_FAILURE() << describe(ray) << "\n  expected " << describe(expected) << "\n  found    " << describe(found) << "\n  in batch "
+                    << describe(hits[i]) << "\n  any hit  " << any << ", in batch " << int{occluded[i]} << "\n  asked    "
+                    << asked.asked().size() << " of " << on_the_ray.asked().size();
   }
   EXPECT_EQ(differences, 0U) << "of " << rays.size() << " filtered rays";
 }

@@ -83,7 +83,7 @@ TEST(Batches, MakeTheSamePictureForAnyNumberOfThreads) {
 }
 
 TEST(Batches, PassThroughAlphaAlike) {
-  expect_same(sheets(30, 0.05F), {"fast", "bvh"});
+  expect_same(sheets(30, 0.05F), {"fast", "fast:nodes=compressed", "bvh", "octree"});
   expect_same(sheets(30, 0.0F), {"fast", "bvh"});
 }
 

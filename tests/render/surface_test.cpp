@@ -78,6 +78,31 @@ TEST(SurfaceTable, InterpolatesAttributesInWorldSpace) {
   EXPECT_NEAR(glm::length(point.dp_dv - Vec3(0, -2, 0)), 0.0F, 1e-5F);
 }
 
+TEST(SurfaceTable, CoordinatesAreThoseOfThePoint) {
+  const auto expect_same = [](const Scene& scene, const Hit& hit) {
+    const Ray ray{{0, 0, 5}, 0.0F, {0, 0, -1}};
+    const SurfaceTable table(scene);
+    const SurfaceCoordinates expected = table.at(ray, hit).surface_coordinates();
+    const SurfaceCoordinates found = table.coordinates_at(hit);
+    EXPECT_EQ(found.texture.sets, expected.texture.sets);
+    EXPECT_EQ(found.colour_alpha, expected.colour_alpha);
+  };
+  const Hit on_triangle{.t = 5.0F, .u = 0.3F, .v = 0.6F, .primitive = 0, .geometry = 0};
+  Scene scene = triangle_scene(false, {}, Mat4(1.0F));
+  expect_same(scene, on_triangle);
+  Part& part = scene.objects[0].parts[0];
+  part.second_uvs = {{0.5F, 0.1F}, {0.7F, 0.9F}, {0.2F, 0.3F}};
+  expect_same(scene, on_triangle);
+  part.uvs.clear();
+  expect_same(scene, on_triangle);
+  part.second_uvs.clear();
+  part.colours.clear();
+  expect_same(scene, on_triangle);
+  SceneMaker maker;
+  maker.sphere({{0.0F, 0.0F, 0.0F}, 1.0F}, maker.material(SceneMaker::diffuse(Vec3(0.5F))));
+  expect_same(maker.make(), {.t = 4.0F, .u = 0.3F, .v = 0.6F, .primitive = 0, .geometry = 0});
+}
+
 TEST(SurfaceTable, SphereHitsLieOnTheSphere) {
   SceneMaker maker;
   const Mat4 squash(Vec4(2, 0, 0, 0), Vec4(0, 0.5F, 0, 0), Vec4(0, 0.3F, 1, 0), Vec4(10, -3, 4, 1));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "grove/base/random.h"
 #include "grove/render/material/material_table.h"
 #include "grove/render/material/opacity.h"
 #include "grove/render/texture/evaluate_texture.h"
@@ -69,6 +70,36 @@ TEST(Texture, FiltersAfterDecodingAndLeavesAlphaAlone) {
   EXPECT_NEAR(evaluate_texture(scene, 0, {0.5F, 0.5F}).y, 1.0F - 0.5029F, 1e-3F);
 }
 
+// What is read of one channel is what the whole has there, for each number of channels, of bytes and of floats.
+TEST(Texture, OneChannelIsThatOfTheWhole) {
+  Random random(11);
+  Scene scene = image_scene();
+  for (std::uint32_t channels = 1; channels <= 4; ++channels) {
+    for (const bool is_float : {false, true}) {
+      auto image = std::make_shared<Image>();
+      image->width = 3;
+      image->height = 2;
+      image->channels = channels;
+      image->bytes.resize(is_float ? 0 : 6 * channels);
+      image->floats.resize(is_float ? 6 * channels : 0);
+      for (auto& byte : image->bytes) byte = static_cast<std::uint8_t>(random.next_u32(256));
+      for (float& value : image->floats) value = random.next_float();
+      scene.images[0] = image;
+      Texture& texture = scene.textures[0];
+      texture.srgb = channels % 2 == 0;
+      texture.invert = channels == 3;
+      texture.wrap_v = TextureWrap::black;
+      texture.filter = TextureFilter::linear;
+      for (int i = 0; i < 20; ++i) {
+        const Vec2 uv(random.next_float(-2.0F, 2.0F), random.next_float(-0.5F, 1.5F));
+        const Vec4 whole = evaluate_texture(scene, 0, uv);
+        for (std::uint32_t c = 0; c < 4; ++c)
+          EXPECT_EQ(evaluate(scene, ScalarParameter{1.0F, 0, c}, uv), whole[static_cast<int>(c)]) << channels << " channels, channel " << c;
+      }
+    }
+  }
+}
+
 TEST(Texture, CombinesOperands) {
   Scene scene = image_scene();
   Texture checker;
@@ -106,19 +137,19 @@ TEST(Texture, SurvivesBadCoordinatesAndImages) {
 
 TEST(Opacity, FollowsModeCutoffVertexColourAndMix) {
   Scene scene;
-  SurfacePoint point;
+  SurfaceCoordinates place;
   Material material = testing::SceneMaker::diffuse(Vec3(0.5F));
   material.alpha.value = 0.4F;
-  EXPECT_EQ(opacity(scene, material, point), 1.0F);
+  EXPECT_EQ(opacity(scene, material, place), 1.0F);
   EXPECT_FALSE(can_pass_light(scene, material));
   material.alpha_mode = AlphaMode::blend;
-  EXPECT_FLOAT_EQ(opacity(scene, material, point), 0.4F);
-  point.colour.w = 0.5F;
-  EXPECT_FLOAT_EQ(opacity(scene, material, point), 0.2F);
+  EXPECT_FLOAT_EQ(opacity(scene, material, place), 0.4F);
+  place.colour_alpha = 0.5F;
+  EXPECT_FLOAT_EQ(opacity(scene, material, place), 0.2F);
   material.alpha_mode = AlphaMode::mask;
-  EXPECT_EQ(opacity(scene, material, point), 0.0F);
+  EXPECT_EQ(opacity(scene, material, place), 0.0F);
   material.alpha_cutoff = 0.1F;
-  EXPECT_EQ(opacity(scene, material, point), 1.0F);
+  EXPECT_EQ(opacity(scene, material, place), 1.0F);
   Material nothing;
   nothing.kind = MaterialKind::interface;
   scene.materials = {material, nothing};
@@ -127,7 +158,7 @@ TEST(Opacity, FollowsModeCutoffVertexColourAndMix) {
   mix.mix_material[0] = 0;
   mix.mix_material[1] = 1;
   mix.mix_amount.value = 0.25F;
-  EXPECT_FLOAT_EQ(opacity(scene, mix, point), 0.75F);
+  EXPECT_FLOAT_EQ(opacity(scene, mix, place), 0.75F);
   EXPECT_TRUE(can_pass_light(scene, mix));
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "grove/geometry/batch_hit_filter.h"
 #include "grove/geometry/hit.h"
 #include "grove/geometry/hit_filter.h"
 #include "grove/geometry/ray.h"
@@ -39,6 +40,20 @@ class Traceable {
   /// The closest hit, and whether there is any, among those that `filter` accepts.
   [[nodiscard]] virtual Hit closest_hit(const Ray& ray, const HitFilter& filter) const = 0;
   [[nodiscard]] virtual bool any_hit(const Ray& ray, const HitFilter& filter) const = 0;
+
+  /// The same of many rays, which the filter is told by their numbers in `rays`. The spans must be of equal length.
+  virtual void closest_hits(std::span<const Ray> rays, std::span<Hit> hits, const BatchHitFilter& filter) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      FilterOfOneRay of_one(filter, i);
+      hits[i] = closest_hit(rays[i], of_one.filter());
+    }
+  }
+  virtual void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> results, const BatchHitFilter& filter) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      FilterOfOneRay of_one(filter, i);
+      results[i] = any_hit(rays[i], of_one.filter()) ? 1 : 0;
+    }
+  }
 };
 
 }  // namespace grove

@@ -49,16 +49,18 @@ float diagonal_of(const Box& bounds) {
 }
 
 std::vector<Ray> primary_rays(const Camera& camera, const WorkloadSettings& settings) {
-  // A square picture with at least as many pixels as rays.
-  const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(settings.ray_count))));
+  // A square picture with pixels enough for all rays.
+  const std::size_t pixels = (settings.ray_count + settings.samples_per_pixel - 1) / settings.samples_per_pixel;
+  const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(pixels))));
   Camera pinhole = camera;
   pinhole.lens_radius = 0.0F;
   const CameraRays camera_rays(pinhole, static_cast<std::uint32_t>(side), static_cast<std::uint32_t>(side));
   std::vector<Ray> rays(settings.ray_count);
   parallel_for(rays.size(), kGrain, [&](std::size_t i) {
     Random random = generator(RayKind::primary, settings.seed, i);
-    const std::size_t row = i / side;
-    const std::size_t column = i % side;
+    const std::size_t pixel = i / settings.samples_per_pixel;
+    const std::size_t row = pixel / side;
+    const std::size_t column = pixel % side;
     const float x = static_cast<float>(column) + random.next_float();
     const float y = static_cast<float>(row) + random.next_float();
     rays[i] = camera_rays.ray({x, y}, {0.5F, 0.5F});

@@ -33,6 +33,8 @@ enum class RayKind : std::uint8_t {
 struct WorkloadSettings {
   std::size_t ray_count = std::size_t{1} << 18;
   std::uint64_t seed = 1;
+  /// Primary rays through each pixel, one after another as a renderer has them; the more there are, the fewer pixels the picture has. At least 1.
+  std::size_t samples_per_pixel = 1;
 };
 
 /// The camera of that name; without a name the scene's first or, when it has none, a view of everything. Throws UsageError that lists the

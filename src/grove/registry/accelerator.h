@@ -74,6 +74,14 @@ class Accelerator : public Traceable {
   /// Any hits: occluded[i] becomes 1 where something is hit within [t_min, t_max] of rays[i], else 0. Otherwise as `intersect`.
   virtual void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, std::span<TraversalCounts> counts = {}) const = 0;
 
+  /// The closest hits, and whether there are any, among those that `filter` accepts, which is told rays by their numbers in `rays`. Otherwise as without it.
+  void intersect(std::span<const Ray> rays, std::span<Hit> hits, const BatchHitFilter& filter) const { closest_hits(rays, hits, filter); }
+  void occluded(std::span<const Ray> rays, std::span<std::uint8_t> occluded, const BatchHitFilter& filter) const {
+    any_hits(rays, occluded, filter);
+  }
+
+  using Traceable::any_hits;
+  using Traceable::closest_hits;
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const final { intersect(rays, hits); }
   void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> results) const final { occluded(rays, results); }
 

@@ -52,11 +52,19 @@ struct FastStructure {
   [[nodiscard]] FastScene<Bvh> with(const TriangleMesh& mesh) const { return {bvh, mesh.vertices().data()}; }
 };
 
+// What a counter that filters has to say, for kernels.
+template <FiltersHits C>
+HitFilter filter_of(C& counter) {
+  return {[](void* context, const Hit& hit) { return static_cast<const C*>(context)->accepts(hit); }, &counter};
+}
+
 template <typename Bvh, typename C>
 void trace_closest(const FastStructure<Bvh>& structure, const TriangleMesh& mesh, const Ray& ray, Hit& hit, C& counter) {
-  if constexpr (TellsApart<C> || FiltersHits<C>) {
-    // Kernels only count; the plain walk can tell of its steps and be told which hits count, and finds the same.
+  if constexpr (TellsApart<C>) {
+    // Kernels only count; the plain walk can tell of its steps, and finds the same.
     trace_closest(structure.with(mesh), ray, hit, counter);
+  } else if constexpr (FiltersHits<C>) {
+    trace_filtered_closest(structure.with(mesh), structure.test, ray, hit, filter_of(counter));
   } else {
     trace_single_closest(structure.with(mesh), structure.test, ray, hit, counter.nested());
   }
@@ -64,7 +72,7 @@ void trace_closest(const FastStructure<Bvh>& structure, const TriangleMesh& mesh
 template <typename Bvh, typename C>
 bool trace_any(const FastStructure<Bvh>& structure, const TriangleMesh& mesh, const Ray& ray, C& counter) {
   if constexpr (FiltersHits<C>) {
-    return trace_any(structure.with(mesh), ray, counter);
+    return trace_filtered_any(structure.with(mesh), structure.test, ray, filter_of(counter));
   } else {
     return trace_single_any(structure.with(mesh), structure.test, ray, counter.nested());
   }
@@ -78,6 +86,18 @@ template <typename Bvh>
 void trace_any(const FastStructure<Bvh>& structure, const TriangleMesh& mesh, std::span<const Ray> rays, std::span<std::uint8_t> results,
                std::span<TraversalCounts> counts) {
   trace_any(structure.with(mesh), structure.test, rays, results, counts);
+}
+template <typename Bvh>
+void trace_closest(const FastStructure<Bvh>& structure, const TriangleMesh& mesh, std::span<const Ray> rays, std::span<Hit> hits,
+                   const BatchHitFilter& filter) {
+  LocatingFilter<TriangleMesh> locating(filter, mesh);
+  trace_closest(structure.with(mesh), structure.test, rays, hits, locating.filter());
+}
+template <typename Bvh>
+void trace_any(const FastStructure<Bvh>& structure, const TriangleMesh& mesh, std::span<const Ray> rays, std::span<std::uint8_t> results,
+               const BatchHitFilter& filter) {
+  LocatingFilter<TriangleMesh> locating(filter, mesh);
+  trace_any(structure.with(mesh), structure.test, rays, results, locating.filter());
 }
 
 template <typename Bvh>
@@ -148,6 +168,15 @@ void trace_any(const FastTopStructure& structure, const InstanceSet& instances, 
     Counter counter(counts[i]);
     results[i] = rays[i].is_traceable() && trace_any(structure, instances, rays[i], counter) ? 1 : 0;
   }
+}
+
+void trace_closest(const FastTopStructure& structure, const InstanceSet& instances, std::span<const Ray> rays, std::span<Hit> hits,
+                   const BatchHitFilter& filter) {
+  InstanceBatch(structure.bvh, instances, &filter).trace_closest(rays, hits);
+}
+void trace_any(const FastTopStructure& structure, const InstanceSet& instances, std::span<const Ray> rays, std::span<std::uint8_t> results,
+               const BatchHitFilter& filter) {
+  InstanceBatch(structure.bvh, instances, &filter).trace_any(rays, results);
 }
 
 template <Geometry G>

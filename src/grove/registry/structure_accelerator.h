@@ -30,6 +30,14 @@ concept TracesBatches = requires(const Structure& structure, const G& geometry, 
   trace_any(structure, geometry, rays, results, counts);
 };
 
+/// And whose kernels ask a filter about their hits, with `primitive` as in Hit.
+template <typename Structure, typename G>
+concept TracesFilteredBatches = requires(const Structure& structure, const G& geometry, std::span<const Ray> rays, std::span<Hit> hits,
+                                         std::span<std::uint8_t> results, const BatchHitFilter& filter) {
+  trace_closest(structure, geometry, rays, hits, filter);
+  trace_any(structure, geometry, rays, results, filter);
+};
+
 /// The bridge from a structure and a geometry, both known at compile time, to Accelerator. `Structure` is plain data for which the
 /// functions trace_closest(structure, geometry, ray, hit, counter) and trace_any(…) exist (rooms accel and traverse); how it is counted, drawn,
 /// judged and made to follow its geometry is passed in, since only the registry's row knows.
@@ -93,6 +101,28 @@ class StructureAccelerator final : public Accelerator {
 
   [[nodiscard]] bool any_hit(const Ray& ray, const HitFilter& filter) const override {
     return any(ray, FilteringCounter<G>(filter, *geometry_));
+  }
+
+  using Accelerator::any_hits;
+  using Accelerator::closest_hits;
+  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits, const BatchHitFilter& filter) const override {
+    GROVE_CHECK(rays.size() == hits.size());
+    if constexpr (TracesFilteredBatches<Structure, G>) {
+      trace_closest(state_.structure, *geometry_, rays, hits, filter);
+      for (Hit& hit : hits)
+        if (hit) geometry_->locate(hit);
+    } else {
+      Traceable::closest_hits(rays, hits, filter);
+    }
+  }
+
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> results, const BatchHitFilter& filter) const override {
+    GROVE_CHECK(rays.size() == results.size());
+    if constexpr (TracesFilteredBatches<Structure, G>) {
+      trace_any(state_.structure, *geometry_, rays, results, filter);
+    } else {
+      Traceable::any_hits(rays, results, filter);
+    }
   }
 
   [[nodiscard]] Hit record_steps(const Ray& ray, TraversalRecord& record) const override {

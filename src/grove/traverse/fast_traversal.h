@@ -58,6 +58,16 @@ void walk_blocks(const FastScene<Bvh>& scene, const Ray& ray, const float& t_max
       counter);
 }
 
+/// A counter that counts nothing and asks a filter which knows triangles by their numbers in blocks, as kernels do.
+class BlockFilterCounter : public NoCounter {
+ public:
+  explicit BlockFilterCounter(const HitFilter& filter) : filter_(filter) {}
+  [[nodiscard]] bool accepts(const Hit& hit) const { return filter_(hit); }
+
+ private:
+  HitFilter filter_;
+};
+
 /// Closest hit. `hit.t` must start as the ray's t_max.
 template <typename Bvh, typename C>
 void trace_closest(const FastScene<Bvh>& scene, const Ray& ray, Hit& hit, C& counter) {

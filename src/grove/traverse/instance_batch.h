@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "grove/accel/wide_bvh.h"
+#include "grove/geometry/batch_hit_filter.h"
 #include "grove/geometry/instance_set.h"
 #include "grove/traverse/wide_traversal.h"
 
@@ -84,10 +85,35 @@ class InstanceWalk {
   Child leaf_{0, 0};
 };
 
-/// Traces one batch of up to 2^32 - 1 rays, in one thread. The hierarchy and the instances must outlive it.
+/// A batch's filter as the object of an instance sees it: rays are numbered as those that have come to the instance, and hits are told with its number.
+class InstanceBatchFilter {
+ public:
+  /// slots[k] is whose walk the object's ray k belongs to.
+  InstanceBatchFilter(const BatchHitFilter& outer, std::uint32_t instance, std::span<const InstanceWalk> walks,
+                      std::span<const std::uint32_t> slots)
+      : outer_(outer), instance_(instance), walks_(walks), slots_(slots) {}
+
+  [[nodiscard]] BatchHitFilter filter() { return {accept, this}; }
+
+ private:
+  static bool accept(void* context, std::size_t ray, const Hit& hit) {
+    const auto& self = *static_cast<const InstanceBatchFilter*>(context);
+    Hit whole = hit;
+    whole.instance = self.instance_;
+    return self.outer_(self.walks_[self.slots_[ray]].index(), whole);
+  }
+
+  BatchHitFilter outer_;
+  std::uint32_t instance_;
+  std::span<const InstanceWalk> walks_;
+  std::span<const std::uint32_t> slots_;
+};
+
+/// Traces one batch of up to 2^32 - 1 rays, in one thread. The hierarchy and the instances must outlive it, and the filter, which may be null.
 class InstanceBatch {
  public:
-  InstanceBatch(const WideBvh<8>& bvh, const InstanceSet& instances) : bvh_(bvh), instances_(instances) {}
+  InstanceBatch(const WideBvh<8>& bvh, const InstanceSet& instances, const BatchHitFilter* filter = nullptr)
+      : bvh_(bvh), instances_(instances), filter_(filter) {}
 
   /// hits[i] becomes the closest hit of rays[i]; t is infinite on a miss.
   void trace_closest(std::span<const Ray> rays, std::span<Hit> hits) {
@@ -96,7 +122,13 @@ class InstanceBatch {
         rays, [&](InstanceWalk& walk) { finish(walk.hit, hits[walk.index()]); }, [&](std::size_t i) { hits[i] = {}; },
         [&](std::uint32_t instance, std::span<const Ray> object_rays, std::span<const std::uint32_t> slots) {
           const std::span<Hit> found(found_hits_.data(), object_rays.size());
-          instances_.instance(instance).object->closest_hits(object_rays, found);
+          const Traceable& object = *instances_.instance(instance).object;
+          if (filter_ == nullptr) {
+            object.closest_hits(object_rays, found);
+          } else {
+            InstanceBatchFilter below(*filter_, instance, walks_, slots);
+            object.closest_hits(object_rays, found, below.filter());
+          }
           for (std::size_t k = 0; k < slots.size(); ++k) InstanceSet::take_closer(found[k], instance, walks_[slots[k]].hit);
         },
         [](const InstanceWalk& /*walk*/) { return false; });
@@ -109,7 +141,13 @@ class InstanceBatch {
         rays, [&](InstanceWalk& walk) { results[walk.index()] = walk.hit ? 1 : 0; }, [&](std::size_t i) { results[i] = 0; },
         [&](std::uint32_t instance, std::span<const Ray> object_rays, std::span<const std::uint32_t> slots) {
           const std::span<std::uint8_t> found(found_any_.data(), object_rays.size());
-          instances_.instance(instance).object->any_hits(object_rays, found);
+          const Traceable& object = *instances_.instance(instance).object;
+          if (filter_ == nullptr) {
+            object.any_hits(object_rays, found);
+          } else {
+            InstanceBatchFilter below(*filter_, instance, walks_, slots);
+            object.any_hits(object_rays, found, below.filter());
+          }
           for (std::size_t k = 0; k < slots.size(); ++k)
             if (found[k] != 0) walks_[slots[k]].hit.primitive = 0;
         },
@@ -192,6 +230,7 @@ class InstanceBatch {
 
   const WideBvh<8>& bvh_;
   const InstanceSet& instances_;
+  const BatchHitFilter* filter_;
   std::vector<InstanceWalk> walks_;  // by slot
   std::vector<std::uint32_t> active_;
   std::vector<Arrival> arrivals_;

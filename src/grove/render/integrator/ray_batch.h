@@ -23,17 +23,13 @@ class RayBatch {
   void find_light(std::span<const Ray> rays, std::span<float> transmittances);
 
   [[nodiscard]] std::uint64_t rays_traced() const { return rays_traced_; }
-  /// Seconds within the structure, and in going on behind what lets light pass.
+  /// Seconds within the structure, and in deciding what lets light pass.
   [[nodiscard]] double trace_seconds() const { return trace_seconds_; }
 
  private:
-  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits);
-  void any_hits(std::span<const Ray> rays, std::span<float> transmittances);
-
   const PreparedScene* world_;
   std::uint64_t rays_traced_ = 0;
   double trace_seconds_ = 0.0;
-  std::vector<Hit> nearest_;
   LightFilter light_;
   std::vector<std::uint8_t> occluded_;
 };

@@ -33,8 +33,7 @@ class RayTracer {
   [[nodiscard]] std::uint64_t rays_traced() const { return rays_traced_; }
 
  private:
-  [[nodiscard]] Hit closest_hit(const Ray& ray, std::uint32_t bounce);
-  [[nodiscard]] bool any_hit(const Ray& ray);
+  void count(const Ray& ray, bool asks_any);
 
   const PreparedScene* world_;
   const Sampler* sampler_;

@@ -9,17 +9,16 @@
 namespace grove {
 namespace {
 
-bool can_pass(const PreparedScene& world, const Hit& hit) {
-  return world.materials.can_pass_light(world.surfaces.material_of(hit));
+// In [0, 1]; 1 where no light can pass.
+float opacity_at(const PreparedScene& world, const Hit& hit) {
+  const std::uint32_t material = world.surfaces.material_of(hit);
+  if (!world.materials.can_pass_light(material)) return 1.0F;
+  return opacity(world.scene, world.scene.materials[material], world.surfaces.coordinates_at(hit));
 }
 
-float opacity_at(const PreparedScene& world, const SurfacePoint& point) {
-  return opacity(world.scene, world.scene.materials[point.material], point);
-}
-
-// The nearest first. Where a ray meets a primitive twice, the distances tell.
-auto order(const Hit& hit) {
-  return std::tuple(hit.t, hit.instance, hit.geometry, hit.primitive);
+// By ray, the nearest first. Where a ray meets a primitive twice, the distances tell.
+auto order(std::size_t ray, const Hit& hit) {
+  return std::tuple(ray, hit.t, hit.instance, hit.geometry, hit.primitive);
 }
 
 bool is_same_surface(const Hit& a, const Hit& b) {
@@ -29,42 +28,33 @@ bool is_same_surface(const Hit& a, const Hit& b) {
 }  // namespace
 
 bool ChanceFilter::stops(const Hit& hit) const {
-  if (!can_pass(*world_, hit)) return true;
-  const SurfacePoint point = world_->surfaces.at(*ray_, hit);
-  const float stopped = opacity_at(*world_, point);
+  const float stopped = opacity_at(*world_, hit);
   if (stopped >= 1.0F || !(stopped > 0.0F)) return stopped >= 1.0F;
-  const bool is_outside = glm::dot(ray_->direction, point.geometric_normal) < 0.0F;
+  const bool is_outside = glm::dot(ray_->direction, world_->surfaces.at(*ray_, hit).geometric_normal) < 0.0F;
   return sampler_->sample_1d(opacity_dimension(vertex_, hit, is_outside)) < stopped;
 }
 
-void LightFilter::start(const Ray& ray) {
-  ray_ = &ray;
+void LightFilter::start(std::span<const Ray> rays) {
+  rays_ = rays;
   veils_.clear();
 }
 
-bool LightFilter::stops(const Hit& hit) {
-  if (!can_pass(*world_, hit)) return true;
-  const float stopped = opacity_at(*world_, world_->surfaces.at(*ray_, hit));
+bool LightFilter::stops(std::size_t ray, const Hit& hit) {
+  const float stopped = opacity_at(*world_, hit);
   if (stopped >= 1.0F) return true;
-  if (stopped > 0.0F) veils_.push_back({hit, 1.0F - stopped});
+  if (stopped > 0.0F) veils_.push_back({ray, hit, 1.0F - stopped});
   return false;
 }
 
-float LightFilter::transmittance() {
-  std::ranges::sort(veils_, {}, [](const Veil& veil) { return order(veil.hit); });
-  float passed = 1.0F;
+void LightFilter::find_transmittances(std::span<const std::uint8_t> occluded, std::span<float> transmittances) {
+  for (std::size_t i = 0; i < occluded.size(); ++i) transmittances[i] = occluded[i] != 0 ? 0.0F : 1.0F;
+  std::erase_if(veils_, [&](const Veil& veil) { return occluded[veil.ray] != 0; });
+  std::ranges::sort(veils_, {}, [](const Veil& veil) { return order(veil.ray, veil.hit); });
   for (std::size_t i = 0; i < veils_.size(); ++i) {
     // Triangles of one surface that share the edge or corner that the ray passes through are met at once, and count once.
-    if (i == 0 || !is_same_surface(veils_[i].hit, veils_[i - 1].hit)) passed *= veils_[i].transmittance;
+    const bool is_new = i == 0 || veils_[i].ray != veils_[i - 1].ray || !is_same_surface(veils_[i].hit, veils_[i - 1].hit);
+    if (is_new) transmittances[veils_[i].ray] *= veils_[i].transmittance;
   }
-  return passed;
-}
-
-float transmittance_behind(const PreparedScene& world, const Ray& ray, const Hit& nearest, LightFilter& light) {
-  if (!nearest) return 1.0F;
-  light.start(ray);
-  if (light.stops(nearest) || world.accelerator.any_hit(from_hit_on(ray, nearest), light.filter())) return 0.0F;
-  return light.transmittance();
 }
 
 }  // namespace grove

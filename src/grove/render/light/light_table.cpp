@@ -285,7 +285,7 @@ LightSample LightTable::sample_surface(const Light& light, const Vec3& from, con
   LightSample result;
   result.direction = to_light / std::sqrt(distance_squared);
   result.radiance = emitted(point, -result.direction);
-  result.radiance *= opacity(*scene_, scene_->materials[point.material], point);
+  result.radiance *= opacity(*scene_, scene_->materials[point.material], point.surface_coordinates());
   if (result.radiance == Vec3(0.0F)) return {};
   result.pdf = surface_pdf(light, from, point);
   result.target = point.offset_origin(-result.direction);

@@ -89,8 +89,8 @@ Bsdf MaterialTable::bsdf(const SurfacePoint& point, const SurfaceView& view, flo
     float amount = unit(evaluate(*scene_, chosen->mix_amount, point.coordinates()));
     if (can_pass_light_[point.material] != 0) {
       // Light has met the surface already, more likely the material that lets less of it pass.
-      const float first = (1.0F - amount) * opacity(*scene_, scene_->materials[chosen->mix_material[0]], point);
-      const float second = amount * opacity(*scene_, scene_->materials[chosen->mix_material[1]], point);
+      const float first = (1.0F - amount) * opacity(*scene_, scene_->materials[chosen->mix_material[0]], point.surface_coordinates());
+      const float second = amount * opacity(*scene_, scene_->materials[chosen->mix_material[1]], point.surface_coordinates());
       if (first + second > 0.0F) amount = second / (first + second);
     }
     const bool is_second = u < amount;

@@ -5,6 +5,7 @@
 #include "grove/geometry/hit.h"
 #include "grove/geometry/ray.h"
 #include "grove/math/vector.h"
+#include "grove/render/surface/surface_coordinates.h"
 #include "grove/render/texture/texture_coordinates.h"
 
 namespace grove {
@@ -33,6 +34,7 @@ struct SurfacePoint {
   float error = 0.0F;
 
   [[nodiscard]] TextureCoordinates coordinates() const { return {uv, second_uv}; }
+  [[nodiscard]] SurfaceCoordinates surface_coordinates() const { return {coordinates(), colour.w}; }
 
   /// An origin for a ray that leaves towards `direction`, moved along the geometric normal to the side that it leaves on, just far enough
   /// that traversal cannot find this surface again. The distance follows from the rounding errors of the coordinates at hand, not

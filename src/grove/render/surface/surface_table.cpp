@@ -110,6 +110,19 @@ SurfacePoint SurfaceTable::at(const Ray& ray, const Hit& hit) const {
   return sphere_point(instance, part, hit.primitive, normal, {hit.u, hit.v});
 }
 
+SurfaceCoordinates SurfaceTable::coordinates_at(const Hit& hit) const {
+  const PartView& part = part_of(hit);
+  const Vec2 barycentric(hit.u, hit.v);
+  SurfaceCoordinates coordinates{barycentric, 1.0F};
+  const Part& data = *part.part;
+  if (part.mesh == nullptr || (data.uvs.empty() && data.second_uvs.empty() && data.colours.empty())) return coordinates;
+  const Triangle corner = part.mesh->triangles()[part.first_primitive + hit.primitive] - Triangle(part.first_vertex);
+  if (!data.uvs.empty()) coordinates.texture = interpolate(data.uvs, corner, barycentric);
+  if (!data.second_uvs.empty()) coordinates.texture.sets[1] = interpolate(data.second_uvs, corner, barycentric);
+  if (!data.colours.empty()) coordinates.colour_alpha = interpolate(data.colours, corner, barycentric).w;
+  return coordinates;
+}
+
 void SurfaceTable::prefetch_primitive(const Hit& hit) const {
   const PartView& part = part_of(hit);
   if (part.mesh != nullptr) __builtin_prefetch(&part.mesh->triangles()[part.first_primitive + hit.primitive]);

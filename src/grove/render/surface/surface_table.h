@@ -16,6 +16,9 @@ class SurfaceTable {
   /// The point that `ray` met. O(1).
   [[nodiscard]] SurfacePoint at(const Ray& ray, const Hit& hit) const;
 
+  /// The same numbers as those of that point, without the rest of it. O(1).
+  [[nodiscard]] SurfaceCoordinates coordinates_at(const Hit& hit) const;
+
   /// Asks memory for what `at` will read of a hit, in two steps that are to lie some work apart: the second reads what the first asked for.
   void prefetch_primitive(const Hit& hit) const;
   void prefetch_corners(const Hit& hit) const;

@@ -13,12 +13,12 @@ HWY_BEFORE_NAMESPACE();
 namespace grove {
 namespace HWY_NAMESPACE {
 
-template <typename Bvh, TriangleTest kTest, bool kCounts>
+template <typename Bvh, TriangleTest kTest, Beside kBeside>
 void run_batch(const BatchQuery<Bvh>& query, BatchMemory& memory) {
   if (query.results != nullptr) {
-    BatchKernel<Bvh, kTest, true, kCounts>(query, memory).run();
+    BatchKernel<Bvh, kTest, true, kBeside>(query, memory).run();
   } else {
-    BatchKernel<Bvh, kTest, false, kCounts>(query, memory).run();
+    BatchKernel<Bvh, kTest, false, kBeside>(query, memory).run();
   }
 }
 

@@ -81,15 +81,22 @@ HWY_INLINE void test_block(const BatchRay& ray, float t_max, const TriangleBlock
   }
 }
 
-// Takes the closest of hits where it is closer than `hit`, as hits are compared everywhere.
-HWY_INLINE void take_closest(const FourHits& hits, const TriangleBlock& block, Hit& hit) {
+struct AcceptsAll {
+  HWY_INLINE bool operator()(const Hit& /*hit*/) const { return true; }
+};
+
+// Takes the closest of hits where it is closer than `hit`, as hits are compared everywhere, and accepts(hit) says that it counts.
+template <typename Accepts>
+HWY_INLINE void take_closest(const FourHits& hits, const TriangleBlock& block, Hit& hit, const Accepts& accepts) {
   for (std::uint32_t left = hits.places; left != 0; left &= left - 1) {
     const int place = std::countr_zero(left);
     if (!is_closer(hits.t[place], block.primitive[place], hit)) continue;
-    hit.t = hits.t[place];
-    hit.u = hits.u[place];
-    hit.v = hits.v[place];
-    hit.primitive = block.primitive[place];
+    Hit closer;
+    closer.t = hits.t[place];
+    closer.u = hits.u[place];
+    closer.v = hits.v[place];
+    closer.primitive = block.primitive[place];
+    if (accepts(closer)) hit = closer;
   }
 }
 

@@ -23,7 +23,9 @@ template <typename D, typename M>
 HWY_INLINE std::uint32_t bits_of(D d, M mask) {
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(d, mask, bits);
-  return bits[0] & ((1U << hn::MaxLanes(D())) - 1);
+  static_assert(hn::MaxLanes(D()) <= 16);
+  const std::uint32_t first = bits[0];
+  return (first | std::uint32_t{bits[1]} << 8) & ((1U << hn::MaxLanes(D())) - 1);
 }
 
 // The lanes of eight whose bits are set, then the others. By a table on every instruction set: where there is an instruction for it, it is not faster.

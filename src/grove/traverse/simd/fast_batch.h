@@ -42,6 +42,18 @@ void trace_any(const FastScene<Bvh>& scene, TriangleTest test, std::span<const R
   trace_batch<Bvh>({scene, rays.data(), rays.size(), nullptr, results.data(), counts.empty() ? nullptr : counts.data()}, test);
 }
 
+/// The same among the hits that `filter` accepts, which is told `primitive` as blocks have it.
+template <typename Bvh>
+void trace_closest(const FastScene<Bvh>& scene, TriangleTest test, std::span<const Ray> rays, std::span<Hit> hits,
+                   const BatchHitFilter& filter) {
+  trace_batch<Bvh>({scene, rays.data(), rays.size(), hits.data(), nullptr, nullptr, &filter}, test);
+}
+template <typename Bvh>
+void trace_any(const FastScene<Bvh>& scene, TriangleTest test, std::span<const Ray> rays, std::span<std::uint8_t> results,
+               const BatchHitFilter& filter) {
+  trace_batch<Bvh>({scene, rays.data(), rays.size(), nullptr, results.data(), nullptr, &filter}, test);
+}
+
 /// The instruction sets that the kernels are compiled for and this machine has, best first, by Highway's names: AVX3 is AVX-512.
 [[nodiscard]] std::vector<std::string> batch_targets();
 

@@ -76,6 +76,26 @@ class RaySetup {
   // 2^-20 or above 2^20.
   [[nodiscard]] bool is_regular(std::size_t i) const { return (regular_ >> i & 1U) != 0; }
 
+  // Of all rays.
+  [[nodiscard]] bool is_regular() const { return regular_ == (1U << kCount) - 1; }
+
+  // By the signs of the direction, as nodes number their orders.
+  [[nodiscard]] std::uint32_t octant(std::size_t i) const { return octant_[i]; }
+  [[nodiscard]] bool has_one_octant() const {
+    const DU du;
+    return hn::AllTrue(du, hn::Eq(hn::Load(du, octant_), hn::Set(du, octant_[0])));
+  }
+
+  // What the test of slabs needs, by ray.
+  HWY_INLINE void store_slabs(float* const inverse[3], float* const near_offset[3], float* const far_offset[3], float* t_min) const {
+    const D d;
+    V last;
+    store_first_three(inverse_, inverse, last);
+    hn::StoreU(last, d, t_min);
+    store_first_three(near_offset_, near_offset, last);
+    store_first_three(far_offset_, far_offset, last);
+  }
+
   HWY_INLINE void copy(std::size_t i, BatchRay& ray) const {
     std::memcpy(ray.inverse, inverse_ + 4 * i, 16);
     std::memcpy(ray.near_offset, near_offset_ + 4 * i, 16);
@@ -94,6 +114,13 @@ class RaySetup {
     V t_min;
     V t_max;
   };
+
+  static HWY_INLINE void store_first_three(const float* four, float* const three[3], V& fourth) {
+    const D d;
+    V v[3];
+    hn::LoadInterleaved4(d, four, v[0], v[1], v[2], fourth);
+    for (int axis = 0; axis < 3; ++axis) hn::StoreU(v[axis], d, three[axis]);
+  }
 
   static HWY_INLINE V largest(const V v[3]) { return hn::Max(hn::Max(v[0], v[1]), v[2]); }
 

@@ -13,10 +13,13 @@
 #include <bit>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
+#include "grove/geometry/hit_filter.h"
 #include "grove/traverse/fast_traversal.h"
 #include "grove/traverse/simd/batch_slot.h"
+#include "grove/traverse/simd/beside.h"
 #include "grove/traverse/simd/block_hits-inl.h"
 #include "grove/traverse/simd/block_test-inl.h"
 #include "grove/traverse/simd/node_step-inl.h"
@@ -29,21 +32,26 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// One ray with nothing else in flight. kAny: any hit instead of the closest. kCounts: with counters.
-template <typename Bvh, TriangleTest kTest, bool kAny, bool kCounts>
+// One ray with nothing else in flight. kAny: any hit instead of the closest.
+template <typename Bvh, TriangleTest kTest, bool kAny, Beside kBeside>
 class SingleRay {
   using Node = typename Bvh::Node;
   using Block = typename Bvh::Block;
+  static constexpr bool kCounts = kBeside == Beside::counting;
+  static constexpr bool kFilters = kBeside == Beside::filtering;
 
  public:
-  // `hit.t` is t_max; a hit is written there, for kAny its primitive as 0. Returns false where the ray or the hierarchy is none for this kernel.
-  HWY_INLINE static bool trace(const FastScene<Bvh>& scene, const Ray& ray, Hit& hit, TraversalCounts* counts) {
+  // What is counted into, or the filter that is asked.
+  using Companion = std::conditional_t<kFilters, const HitFilter, TraversalCounts>;
+
+  // `hit.t` is t_max; a hit is written there, for kAny without a filter its primitive as 0. Returns false where the ray or the hierarchy is none for this kernel.
+  HWY_INLINE static bool trace(const FastScene<Bvh>& scene, const Ray& ray, Hit& hit, Companion* companion) {
     const Bvh& bvh = scene.bvh;
     if (bvh.depth > kMostDepth) return false;
     RaySetup<4> setup(bvh.bounds);
     setup.prepare(ray);
     if (!setup.is_regular(0)) return false;
-    SingleRay single(scene, hit, counts);
+    SingleRay single(scene, hit, companion);
     setup.copy(0, single.memory_.slot.ray);
     single.run();
     return true;
@@ -61,8 +69,8 @@ class SingleRay {
   };
   static_assert(offsetof(Memory, stack_t) == sizeof(BatchSlot));
 
-  HWY_INLINE SingleRay(const FastScene<Bvh>& scene, Hit& hit, TraversalCounts* counts)
-      : units_(scene.bvh.units()), vertices_(scene.vertices), hit_(hit), counts_(counts) {
+  HWY_INLINE SingleRay(const FastScene<Bvh>& scene, Hit& hit, Companion* companion)
+      : units_(scene.bvh.units()), vertices_(scene.vertices), hit_(hit), companion_(companion) {
     memory_.slot.t = hit.t;
     memory_.slot.stack_size = 1;
     memory_.stack_t[0] = -std::numeric_limits<float>::infinity();
@@ -74,7 +82,7 @@ class SingleRay {
     std::uint32_t word = 0;
     while (true) {
       if (word >> 31 == 0) {
-        if constexpr (kCounts) ++counts_->nodes_visited;
+        if constexpr (kCounts) ++companion_->nodes_visited;
         if (step(place_of<Node>(units_, word), word)) continue;
       } else if (word == kDone || test(gathered(place_of<Block>(units_, word), vertices_))) {
         return;
@@ -119,7 +127,7 @@ class SingleRay {
       push_all(node, near_of, met | 1U << place);
       word = memory_.stack_child[--slot.stack_size];
     }
-    if constexpr (kCounts) counts_->stack_depth = std::max(counts_->stack_depth, slot.stack_size);
+    if constexpr (kCounts) companion_->stack_depth = std::max(companion_->stack_depth, slot.stack_size);
     return true;
   }
 
@@ -137,23 +145,28 @@ class SingleRay {
   HWY_INLINE bool test(const TriangleBlock& block) {
     BatchSlot& slot = memory_.slot;
     if constexpr (kCounts) {
-      counts_->primitives_tested += block.count();
-      ++counts_->leaves_entered;
+      companion_->primitives_tested += block.count();
+      ++companion_->leaves_entered;
     }
     if constexpr (kTest == TriangleTest::fast) {
       FourHits hits;
       test_block(slot.ray, slot.t, block, hits);
       if (hits.places == 0) return false;
-      if constexpr (kAny) {
+      if constexpr (kAny && !kFilters) {
         hit_.primitive = 0;
         return true;
       }
-      take_closest(hits, block, hit_);
+      if constexpr (kFilters) {
+        take_closest(hits, block, hit_, *companion_);
+        if (kAny && hit_) return true;
+      } else {
+        take_closest(hits, block, hit_, AcceptsAll());
+      }
       slot.t = hit_.t;
       return false;
     }
-    const BlockFilter filter = filter_block<kAny>(slot.ray, slot.t, block);
-    if constexpr (kAny) {
+    const BlockFilter filter = filter_block < kAny && !kFilters > (slot.ray, slot.t, block);
+    if constexpr (kAny && !kFilters) {
       if (filter.certain != 0) {
         hit_.primitive = 0;
         return true;
@@ -168,10 +181,15 @@ class SingleRay {
     for (; possible != 0; possible &= possible - 1) {
       const auto place = static_cast<std::uint32_t>(std::countr_zero(possible));
       const SingleTriangle triangle = triangle_in(block, place);
-      if constexpr (kAny) {
+      if constexpr (kAny && !kFilters) {
         if (!occluded_watertight(ray, triangle.corners)) continue;
         hit_.primitive = 0;
         return true;
+      } else if constexpr (kFilters) {
+        Hit candidate = hit_;
+        if (!intersect_watertight(ray, triangle.corners, &block.primitive[place], candidate) || !(*companion_)(candidate)) continue;
+        hit_ = candidate;
+        if constexpr (kAny) return true;
       } else {
         intersect_watertight(ray, triangle.corners, &block.primitive[place], hit_);
       }
@@ -183,7 +201,7 @@ class SingleRay {
   const FastUnit* const units_;
   const Vec3* const vertices_;
   Hit& hit_;
-  TraversalCounts* const counts_;
+  Companion* const companion_;
   Memory memory_;
 };
 
