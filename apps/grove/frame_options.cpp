@@ -32,20 +32,6 @@ FrameRange parse_range(const std::string& text) {
   return range;
 }
 
-Vec3 parse_vector(const char* option, const std::string& text) {
-  Vec3 vector(0.0F);
-  const char* const end = text.data() + text.size();
-  const char* place = text.data();
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto [stop, error] = std::from_chars(place, end, vector[axis]);
-    const bool is_last = axis == 2;
-    const bool is_right = error == std::errc() && std::isfinite(vector[axis]) && (is_last ? stop == end : stop != end && *stop == ',');
-    if (!is_right) throw UsageError(fmt::format("{}: '{}' is not three numbers x,y,z", option, text));
-    place = stop + 1;
-  }
-  return vector;
-}
-
 std::optional<Viewpoint> parse_viewpoint(const FrameOptions& options, const std::string& camera, bool orbits) {
   const bool describes = !options.eye.empty() || !options.look_at.empty() || !options.up.empty() || options.field_of_view.has_value();
   if (!orbits && options.eye.empty()) {
@@ -56,9 +42,9 @@ std::optional<Viewpoint> parse_viewpoint(const FrameOptions& options, const std:
   if (!orbits && !describes) return std::nullopt;
   if (!camera.empty()) throw UsageError(fmt::format("--eye: goes without --camera {}; take one of them", camera));
   Viewpoint viewpoint;
-  if (!options.eye.empty()) viewpoint.eye = parse_vector("--eye", options.eye);
-  if (!options.look_at.empty()) viewpoint.target = parse_vector("--look-at", options.look_at);
-  if (!options.up.empty()) viewpoint.up = parse_vector("--up", options.up);
+  if (!options.eye.empty()) viewpoint.eye = parse_vector("--eye", options.eye, "x,y,z");
+  if (!options.look_at.empty()) viewpoint.target = parse_vector("--look-at", options.look_at, "x,y,z");
+  if (!options.up.empty()) viewpoint.up = parse_vector("--up", options.up, "x,y,z");
   if (options.field_of_view) viewpoint.field_of_view = static_cast<float>(*options.field_of_view * kRadiansPerDegree);
   return viewpoint;
 }

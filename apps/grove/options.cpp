@@ -94,6 +94,20 @@ std::uint64_t parse_size(const std::string& option, const std::string& text) {
   return static_cast<std::uint64_t>(bytes);
 }
 
+Vec3 parse_vector(const char* option, const std::string& text, const char* form) {
+  Vec3 vector(0.0F);
+  const char* const end = text.data() + text.size();
+  const char* place = text.data();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [stop, error] = std::from_chars(place, end, vector[axis]);
+    const bool is_last = axis == 2;
+    const bool is_right = error == std::errc() && std::isfinite(vector[axis]) && (is_last ? stop == end : stop != end && *stop == ',');
+    if (!is_right) throw UsageError(fmt::format("{}: '{}' is not three numbers {}", option, text, form));
+    place = stop + 1;
+  }
+  return vector;
+}
+
 std::vector<std::string> split_list(const std::string& option, const std::string& text, char separator) {
   std::vector<std::string> parts;
   std::size_t first = 0;

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "grove/math/vector.h"
+
 namespace grove::app {
 
 /// What most verbs ask for.
@@ -34,6 +36,9 @@ CLI::Option* in_range(CLI::Option* option, double minimum, double maximum);
 /// Bytes: a number with B, K, M, G or T, with KB and so on for powers of 1000 and KiB and so on for powers of 1024, which K alone means too.
 /// Throws UsageError for anything else, 0 and less, and 2^63 and more.
 std::uint64_t parse_size(const std::string& option, const std::string& text);
+
+/// Three finite numbers with commas between them. Throws UsageError for anything else; `form` is what it should look like, such as "x,y,z".
+Vec3 parse_vector(const char* option, const std::string& text, const char* form);
 
 /// The parts of a list, without the spaces around them. Throws UsageError when one is empty.
 std::vector<std::string> split_list(const std::string& option, const std::string& text, char separator);

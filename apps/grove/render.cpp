@@ -28,6 +28,7 @@
 #include "sampling_options.h"
 #include "sampling_report.h"
 #include "session.h"
+#include "sky_option.h"
 #include "verbs.h"
 
 namespace grove::app {
@@ -46,6 +47,7 @@ struct RenderOptions : CommonOptions {
   DisplayOptions display;
   LayerOptions layers;
   DenoiseOptions denoise;
+  SkyOption sky;
   ReferencePicture reference;
   std::optional<std::string> tile;
   std::optional<std::string> samples;
@@ -83,6 +85,7 @@ void check_command(RenderOptions& options) {
   parse_layers(options.layers);
   if (has_exr(options.pictures)) ask_for_layers(options.layers, options.settings.gathering);
   parse_denoise(options.denoise, options.settings);
+  parse_sky(options.sky);
   options.plan = plan_frames(options.frames, options.settings.camera, options.pictures);
   std::vector<std::string> first;
   first.reserve(options.pictures.size());
@@ -138,13 +141,14 @@ int run_frames(const RenderOptions& options, Interrupts& interrupts, const Conso
     write_pictures(files, result, {.display = options.display.settings, .layers = options.layers.layers}, header, Console(true));
   };
   return render_frames({options, options.frames, options.plan, options.pictures, options.settings, options.integrator, options.denoise,
-                        options.reference, options.display.settings, write},
+                        options.reference, options.display.settings, options.sky, write},
                        interrupts, console);
 }
 
 // The scene as it is read, or at the time that is asked for; a viewpoint goes into the settings.
 Scene load_for_picture(RenderOptions& options, const Console& console) {
   Scene scene = options.plan.is_posed ? load_posed(options, options.frames, options.plan, console) : load(options.scene, console);
+  set_sky(options.sky, scene);
   if (!options.plan.viewpoint) return scene;
   const View view = choose_view(scene, options.settings);
   options.settings.viewpoint =
@@ -231,6 +235,7 @@ Verb add_render(CLI::App& program) {
   add_display(verb, options->display);
   add_layers(verb, options->layers);
   add_denoise(verb, options->denoise);
+  add_sky(verb, options->sky);
   options->reference.add_option(verb);
   verb.add_option("--tile", options->tile,
                   "Render the i-th of N shares of the picture's tiles, 1/N to N/N; 'grove merge' puts films together")

@@ -110,6 +110,7 @@ class Sequence {
  private:
   void prepare() {
     settings_ = command_.settings;
+    set_sky(command_.sky, scene_.scene());
     const View view = choose_view(scene_.scene(), settings_);
     // What is not there is found before any work.
     for (std::uint32_t number = command_.plan.range.first; number < command_.plan.range.end; ++number) {

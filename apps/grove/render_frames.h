@@ -11,6 +11,7 @@
 #include "interrupts.h"
 #include "options.h"
 #include "reference_picture.h"
+#include "sky_option.h"
 
 namespace grove::app {
 
@@ -25,6 +26,7 @@ struct FrameCommand {
   const DenoiseOptions& denoise;
   const ReferencePicture& reference;
   const DisplaySettings& display;
+  const SkyOption& sky;
   /// Writes a picture to these files, and says nothing. The settings are those it was made with.
   std::function<void(const std::vector<std::string>& files, const RenderResult&, const RenderSettings&, const Scene&,
                      const SceneAccelerator&)>

@@ -127,6 +127,22 @@ TEST(Render, ComparesWithAnotherPicture) {
   expect_failure(run_command(directory, small_with({"-o", "c.exr", "--compare", "none.exr"})), 1);
 }
 
+// Where nothing scatters only the sky is seen, and twice the radiance makes a picture of twice the brightness.
+TEST(Render, SkyTakesThePlaceOfTheScenes) {
+  const TemporaryDirectory directory;
+  const std::vector<std::string> scene{"render", "builtin:rings", "--width", "24", "--height", "16", "--spp", "2", "--max-depth", "0"};
+  const auto with_sky = [&](const char* sky, const std::vector<std::string>& more) {
+    std::vector<std::string> command = scene;
+    command.insert(command.end(), {"--sky", sky});
+    command.insert(command.end(), more.begin(), more.end());
+    return run_command(directory, command);
+  };
+  EXPECT_EQ(with_sky("0.25,0.5,1", {"-o", "a.exr"}).exit_code, 0);
+  const CommandResult brighter = with_sky("0.5,1,2", {"-o", "b.exr", "--compare", "a.exr"});
+  EXPECT_EQ(brighter.exit_code, 0) << brighter.err;
+  EXPECT_THAT(brighter.out, HasSubstr("mean +100.00 %"));
+}
+
 TEST(Render, DenoisesAndKeepsTheFilm) {
   const TemporaryDirectory directory;
   EXPECT_EQ(run_command(directory, small_with({"-o", "a.film"})).exit_code, 0);

@@ -58,6 +58,8 @@ std::vector<WrongCommand> wrong_commands() {
       {"IntervalOfNothing", {"render", "builtin:cornell", "-o", "a.png", "--checkpoint-interval", "5"}, "--checkpoint"},
       {"UnknownToneMap", {"render", "builtin:cornell", "-o", "a.png", "--tone-map", "agfa"}, "none, filmic, aces"},
       {"UnknownLayer", {"render", "builtin:cornell", "-o", "a.exr", "--layers", "depth,heat"}, "'heat'"},
+      {"SkyOfTwoNumbers", {"render", "builtin:cornell", "-o", "a.png", "--sky", "1,1"}, "three numbers r,g,b"},
+      {"NegativeSky", {"render", "builtin:cornell", "-o", "a.png", "--sky", "1,1,-1"}, "negative"},
       {"UnknownDenoiser", {"render", "builtin:cornell", "-o", "a.png", "--denoise", "magic"}, "off, spatial, temporal"},
       {"DenoisedNormals",
        {"render", "builtin:cornell", "-o", "a.png", "--denoise", "spatial", "--integrator", "normal"},

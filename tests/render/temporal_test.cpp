@@ -68,7 +68,7 @@ TEST(Temporal, TendsToTheUnfilteredPictureWhenNothingMoves) {
   Sequence sequence(kSide, 2);
   ColourImage sum(kSide, kSide);
   double early = 0.0;
-  for (std::uint32_t frame = 1; frame <= 64; ++frame) {
+  for (std::uint32_t frame = 1; frame <= 128; ++frame) {
     const ColourImage image = sequence.next(scene);
     EXPECT_EQ(sequence.movement(), frame == 1 ? Movement::some : Movement::none);
     ColourImage mean(kSide, kSide);
@@ -77,12 +77,12 @@ TEST(Temporal, TendsToTheUnfilteredPictureWhenNothingMoves) {
       mean.pixels[i] = sum.pixels[i] / static_cast<float>(frame);
     }
     if (frame == 4) early = compare_pictures(mean, image, 1.0F, ToneMap::aces).rmse;
-    if (frame < 64) continue;
+    if (frame < 128) continue;
     EXPECT_LT(compare_pictures(mean, image, 1.0F, ToneMap::aces).rmse, 0.4 * early);
     // What the filter works on is the mean itself.
     for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
       const PixelHistory& pixel = sequence.history(i % kSide, i / kSide);
-      EXPECT_EQ(pixel.sample_count, 128.0F);
+      EXPECT_EQ(pixel.sample_count, 256.0F);
       EXPECT_LT(glm::length(pixel.reflected + pixel.emitted - mean.pixels[i]), 1e-3F * (1.0F + glm::length(mean.pixels[i]))) << i;
     }
   }

@@ -22,6 +22,9 @@ class CameraRays {
   /// direction is of unit length.
   [[nodiscard]] Ray ray(const Vec2& film, const Vec2& lens) const;
 
+  /// Whether `lens` matters.
+  [[nodiscard]] bool has_lens() const { return lens_radius_ > 0.0F; }
+
   /// The other way, as a pinhole camera sees it: where a point of the world (w = 1) or what lies infinitely far in a direction (w = 0) is. O(1).
   [[nodiscard]] FilmPlace place(const Vec4& in_world) const;
 

@@ -12,7 +12,7 @@ namespace grove {
 [[nodiscard]] inline Ray film_ray(const CameraRays& camera, std::uint32_t x, std::uint32_t y, const Sampler& sampler) {
   const Vec2 u = sampler.sample_2d(kFilmDimension);
   const Vec2 place(static_cast<float>(x) + 0.5F + sample_tent(u.x), static_cast<float>(y) + 0.5F + sample_tent(u.y));
-  return camera.ray(place, sampler.sample_2d(kLensDimension));
+  return camera.ray(place, camera.has_lens() ? sampler.sample_2d(kLensDimension) : Vec2(0.5F));
 }
 
 }  // namespace grove

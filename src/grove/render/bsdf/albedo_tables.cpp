@@ -105,12 +105,26 @@ float AlbedoTable::node_alpha(std::size_t i) {
   return x * x;
 }
 
-float AlbedoTable::operator()(float cosine, float alpha) const {
-  const Position c = locate(cosine);
-  const Position a = locate(alpha);
-  const float* low = values_.data() + a.node * kNodes + c.node;
+AlbedoTable::Place AlbedoTable::locate(float cosine, float alpha) {
+  const Position c = grove::locate(cosine);
+  const Position a = grove::locate(alpha);
+  return {a.node * kNodes + c.node, c.fraction, a.fraction};
+}
+
+float AlbedoTable::at(const Place& place) const {
+  const float* low = values_.data() + place.node;
   const float* high = low + kNodes;
-  return interpolate(interpolate(low[0], low[1], c.fraction), interpolate(high[0], high[1], c.fraction), a.fraction);
+  return interpolate(interpolate(low[0], low[1], place.cosine_fraction), interpolate(high[0], high[1], place.cosine_fraction),
+                     place.alpha_fraction);
+}
+
+GgxAlbedo::Single GgxAlbedo::single(float cosine, float alpha) const {
+  const AlbedoTable::Place place = AlbedoTable::locate(cosine, alpha);
+  return {scale.at(place), bias.at(place)};
+}
+
+float GgxAlbedo::mean(float f0, float f90, float alpha) const {
+  return f90 * mean_bias(alpha) + f0 * (mean_scale(alpha) + f90 * mean_bias_gain(alpha) + f0 * mean_scale_gain(alpha));
 }
 
 float AverageTable::operator()(float alpha) const {

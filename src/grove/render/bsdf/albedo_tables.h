@@ -15,9 +15,18 @@ class AlbedoTable {
   [[nodiscard]] static float node_cosine(std::size_t i);
   [[nodiscard]] static float node_alpha(std::size_t i);
 
-  [[nodiscard]] float& at(std::size_t alpha_node, std::size_t cosine_node) { return values_[alpha_node * kNodes + cosine_node]; }
+  /// A place between nodes: the first of the four round it, and how far it is on to the next.
+  struct Place {
+    std::size_t node;
+    float cosine_fraction;
+    float alpha_fraction;
+  };
   /// Arguments are clamped to [0, 1].
-  [[nodiscard]] float operator()(float cosine, float alpha) const;
+  [[nodiscard]] static Place locate(float cosine, float alpha);
+  [[nodiscard]] float at(const Place& place) const;
+
+  [[nodiscard]] float& at(std::size_t alpha_node, std::size_t cosine_node) { return values_[alpha_node * kNodes + cosine_node]; }
+  [[nodiscard]] float operator()(float cosine, float alpha) const { return at(locate(cosine, alpha)); }
 
  private:
   std::array<float, kNodes * kNodes> values_{};
@@ -36,6 +45,15 @@ class AverageTable {
 /// What a GGX mirror returns of light from everywhere, for Schlick reflectance F0 + (1 - F0) w: F0 * scale + bias
 /// (Karis 2013, "Real Shading in Unreal Engine 4"), single scattering.
 struct GgxAlbedo {
+  struct Single {
+    float scale;
+    float bias;
+  };
+  /// Both at one place, which is looked for once.
+  [[nodiscard]] Single single(float cosine, float alpha) const;
+  /// The cosine-weighted mean of the reflectance from `f0` to `f90` after compensation.
+  [[nodiscard]] float mean(float f0, float f90, float alpha) const;
+
   AlbedoTable scale;
   AlbedoTable bias;
   /// Cosine-weighted means from which that of the reflectance after compensation follows, for Schlick reflectance F0 + (F90 - F0) w:

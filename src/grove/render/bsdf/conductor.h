@@ -20,10 +20,13 @@ struct MetalFresnel {
 /// What light that bounces between facets adds to a rough mirror: the single-scattering value is multiplied by
 /// 1 + F0 (1 - E) / E, with E the albedo of a lossless mirror (Turquin 2019, "Practical Multiple Scattering Compensation for Microfacet
 /// Models", eq. 16). A lossless mirror then loses nothing. It depends on wo alone, so it breaks reciprocity slightly.
-[[nodiscard]] inline Vec3 multiple_scattering_gain(float cosine, float alpha, const Vec3& f0) {
-  const GgxAlbedo& albedo = ggx_albedo();
-  const float single = albedo.scale(cosine, alpha) + albedo.bias(cosine, alpha);
+[[nodiscard]] inline Vec3 multiple_scattering_gain(const GgxAlbedo::Single& lossless, const Vec3& f0) {
+  const float single = lossless.scale + lossless.bias;
   return Vec3(1.0F) + f0 * ((1.0F - single) / single);
+}
+
+[[nodiscard]] inline Vec3 multiple_scattering_gain(float cosine, float alpha, const Vec3& f0) {
+  return multiple_scattering_gain(ggx_albedo().single(cosine, alpha), f0);
 }
 
 /// A metal with a GGX surface.

@@ -21,9 +21,9 @@ struct GlossyLayer {
   /// All that is reflected of light from the direction with this cosine.
   [[nodiscard]] Vec3 albedo(float cosine) const {
     if (is_smooth()) return fresnel(cosine);
-    const GgxAlbedo& table = ggx_albedo();
-    const Vec3 single = f0 * table.scale(cosine, alpha) + Vec3(f90 * table.bias(cosine, alpha));
-    return glm::min(single * multiple_scattering_gain(cosine, alpha, f0), Vec3(1.0F));
+    const GgxAlbedo::Single lossless = ggx_albedo().single(cosine, alpha);
+    const Vec3 single = f0 * lossless.scale + Vec3(f90 * lossless.bias);
+    return glm::min(single * multiple_scattering_gain(lossless, f0), Vec3(1.0F));
   }
 
   /// Value and density of the lobe; zeros when smooth.

@@ -77,11 +77,18 @@ struct MetallicRoughnessBsdf {
   [[nodiscard]] bool is_delta() const { return alpha < kSmoothAlpha && metallic >= 1.0F; }
 
  private:
+  /// What depends on wo alone.
+  struct View {
+    GlossyLayer mirror;
+    float dielectric_albedo;
+    float mirror_chance;
+  };
   [[nodiscard]] GlossyLayer mirror() const;
   /// Of the most reflected colour, so that the light below keeps its hue.
   [[nodiscard]] float dielectric_albedo(float cosine) const;
-  [[nodiscard]] float mirror_chance(const Vec3& wo) const;
-  [[nodiscard]] Vec3 diffuse(float cosine_o, float cosine_i) const;
+  [[nodiscard]] View view(const Vec3& wo) const;
+  [[nodiscard]] BsdfValue evaluate(const View& view, const Vec3& wo, const Vec3& wi) const;
+  [[nodiscard]] Vec3 diffuse(float albedo_o, float cosine_i) const;
 };
 
 }  // namespace grove

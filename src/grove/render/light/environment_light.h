@@ -22,6 +22,8 @@ class EnvironmentLight {
   EnvironmentLight(const Environment& environment, std::shared_ptr<const Image> image);
 
   [[nodiscard]] bool is_on() const { return environment_.is_on(); }
+  /// The same radiance from everywhere.
+  [[nodiscard]] bool is_constant() const { return image_ == nullptr; }
   /// The radiance that arrives against `direction` (world, unit length). Bilinear between pixel centres; negative pixels count as 0.
   [[nodiscard]] Vec3 radiance(const Vec3& direction) const;
   [[nodiscard]] Sample sample(const Vec2& u) const;

@@ -90,7 +90,8 @@ void LightTable::gather() {
     has_default_sky_ = lights_.empty();
     environment_ = has_default_sky_ ? make_default_sky() : EnvironmentLight();
   }
-  if (environment_.is_on()) {
+  // Light that comes from everywhere alike is found best by scattering: to choose its direction without a look at the surface adds a ray and noise.
+  if (environment_.is_on() && !environment_.is_constant()) {
     environment_light_ = static_cast<std::uint32_t>(lights_.size());
     lights_.push_back({.kind = Kind::environment});
     const float irradiance = kPi * environment_.mean_luminance();

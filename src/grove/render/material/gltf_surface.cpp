@@ -25,6 +25,12 @@ class Parameters {
   [[nodiscard]] float number(const ScalarParameter& parameter) const {
     return parameter.value > 0.0F ? unit(evaluate(scene_, parameter, uv_)) : 0.0F;
   }
+  // The same of two that mostly share a texture, which is then looked up once.
+  [[nodiscard]] Vec2 numbers(const ScalarParameter& a, const ScalarParameter& b) const {
+    if (a.texture == kNoTexture || a.texture != b.texture) return {number(a), number(b)};
+    const Vec4 both = evaluate_texture(scene_, a.texture, uv_);
+    return {unit(a.value * channel(both, a)), unit(b.value * channel(both, b))};
+  }
   // The colour of what is reflected; above 1 it would make light from nothing.
   [[nodiscard]] Vec3 reflectance(const ColourParameter& parameter) const {
     return glm::clamp(evaluate(scene_, parameter, uv_), Vec3(0.0F), Vec3(1.0F));
@@ -36,6 +42,10 @@ class Parameters {
   }
 
  private:
+  static float channel(const Vec4& value, const ScalarParameter& parameter) {
+    return value[static_cast<int>(std::min(parameter.channel, 3U))];
+  }
+
   const Scene& scene_;
   TextureCoordinates uv_;
 };
@@ -43,8 +53,9 @@ class Parameters {
 GltfLayersBsdf::Core core_of(const Material& material, const SurfacePoint& point, const Parameters& at, bool is_outside,
                              const DielectricAlbedo* table, float u) {
   const Vec3 colour = glm::clamp(at.factor(material.base_colour) * Vec3(point.colour), Vec3(0.0F), Vec3(1.0F));
-  const float alpha = at.alpha(material.roughness);
-  const float metallic = at.number(material.metallic);
+  const Vec2 numbers = at.numbers(material.roughness, material.metallic);
+  const float alpha = numbers.x * numbers.x;
+  const float metallic = numbers.y;
   const float ior = usable_ior(material.ior);
   const float specular = at.number(material.specular);
   const Vec3 specular_colour = at.factor(material.specular_colour);

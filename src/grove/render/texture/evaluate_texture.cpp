@@ -9,26 +9,24 @@
 namespace grove {
 namespace {
 
-using ByteTable = std::array<float, 256>;
+// What bytes stand for: linear light by sRGB (IEC 61966-2-1), or the plain fraction of 255.
+struct ByteTables {
+  std::array<float, 256> srgb{};
+  std::array<float, 256> plain{};
+};
 
-// 8-bit sRGB to linear (IEC 61966-2-1).
-const ByteTable& srgb_table() {
-  static const ByteTable table = [] {
-    ByteTable values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
+const ByteTables& byte_tables() {
+  static const ByteTables tables = [] {
+    ByteTables values;
+    for (std::size_t i = 0; i < values.srgb.size(); ++i) {
       const double encoded = static_cast<double>(i) / 255.0;
-      values[i] = static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+      values.srgb[i] = static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+      values.plain[i] = static_cast<float>(i) / 255.0F;
     }
     return values;
   }();
-  return table;
+  return tables;
 }
-
-constexpr ByteTable kLinearTable = [] {
-  ByteTable values{};
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i) / 255.0F;
-  return values;
-}();
 
 // A texel index brought into [0, size); false where the wrap mode says that there is nothing.
 bool wrap(TextureWrap mode, std::int64_t size, std::int64_t& i) {
@@ -55,86 +53,105 @@ bool wrap(TextureWrap mode, std::int64_t size, std::int64_t& i) {
   return false;
 }
 
-// One channel of an image's texels as RGBA.
-class ChannelReader {
- public:
-  using Value = float;
-
-  ChannelReader(const Image& image, const Texture& texture, std::uint32_t channel) : image_(&image) {
-    const bool has_alpha = image.channels == 2 || image.channels == 4;
-    is_there_ = channel < 3 || has_alpha;
-    if (is_there_) offset_ = channel == 3 ? image.channels - 1 : (image.channels < 3 ? 0 : channel);
-    table_ = texture.srgb && channel < 3 ? srgb_table().data() : kLinearTable.data();
-  }
-
-  [[nodiscard]] float operator()(std::size_t texel) const {
-    if (!is_there_) return 1.0F;
-    const std::size_t place = texel * image_->channels + offset_;
-    return image_->is_float() ? image_->floats[place] : table_[image_->bytes[place]];
-  }
-
- private:
-  const Image* image_;
-  const float* table_;
-  std::uint32_t offset_ = 0;
-  bool is_there_;
-};
-
-// All four.
-class TexelReader {
- public:
-  using Value = Vec4;
-
-  TexelReader(const Image& image, const Texture& texture)
-      : red_{image, texture, 0}, green_{image, texture, 1}, blue_{image, texture, 2}, alpha_{image, texture, 3} {}
-
-  [[nodiscard]] Vec4 operator()(std::size_t texel) const { return {red_(texel), green_(texel), blue_(texel), alpha_(texel)}; }
-
- private:
-  ChannelReader red_, green_, blue_, alpha_;
-};
-
-template <typename Reader>
-typename Reader::Value texel(const Image& image, const Texture& texture, const Reader& reader, std::int64_t x, std::int64_t y) {
-  if (!wrap(texture.wrap_u, image.width, x) || !wrap(texture.wrap_v, image.height, y)) return typename Reader::Value(0.0F);
-  return reader(static_cast<std::size_t>(y) * image.width + static_cast<std::size_t>(x));
+Vec4 grey(float value, float alpha) {
+  return {value, value, value, alpha};
 }
 
-// `place` is in the coordinates of the image.
-template <typename Reader>
-typename Reader::Value evaluate_image(const Image& image, const Texture& texture, const Reader& reader, const Vec2& place) {
-  using Value = typename Reader::Value;
-  if (image.width == 0 || image.height == 0 || (image.bytes.empty() && image.floats.empty())) return Value(0.0F);
+// Texels of one image, by indices that are in it.
+class Texels {
+ public:
+  Texels(const Image& image, const Texture& texture)
+      : image_(image), plain_(byte_tables().plain.data()), colour_(texture.srgb ? byte_tables().srgb.data() : plain_) {}
+
+  [[nodiscard]] Vec4 at(std::int64_t x, std::int64_t y) const {
+    const std::size_t first = (static_cast<std::size_t>(y) * image_.width + static_cast<std::size_t>(x)) * image_.channels;
+    if (image_.is_float()) {
+      const float* const value = image_.floats.data() + first;
+      if (image_.channels <= 2) return grey(value[0], image_.channels == 2 ? value[1] : 1.0F);
+      return {value[0], value[1], value[2], image_.channels == 4 ? value[3] : 1.0F};
+    }
+    const std::uint8_t* const byte = image_.bytes.data() + first;
+    if (image_.channels <= 2) return grey(colour_[byte[0]], image_.channels == 2 ? plain_[byte[1]] : 1.0F);
+    return {colour_[byte[0]], colour_[byte[1]], colour_[byte[2]], image_.channels == 4 ? plain_[byte[3]] : 1.0F};
+  }
+
+  // One of the four numbers of `at`.
+  [[nodiscard]] float channel(std::int64_t x, std::int64_t y, std::uint32_t channel) const {
+    const bool is_alpha = channel == 3;
+    const bool has_alpha = image_.channels == 2 || image_.channels == 4;
+    if (is_alpha && !has_alpha) return 1.0F;
+    const std::uint32_t place = is_alpha ? image_.channels - 1 : (image_.channels <= 2 ? 0 : channel);
+    const std::size_t i = (static_cast<std::size_t>(y) * image_.width + static_cast<std::size_t>(x)) * image_.channels + place;
+    if (image_.is_float()) return image_.floats[i];
+    return (is_alpha ? plain_ : colour_)[image_.bytes[i]];
+  }
+
+ private:
+  const Image& image_;
+  const float* plain_;
+  const float* colour_;
+};
+
+// std::floor without a call, for what fits into 63 bits.
+std::int64_t whole_part(double value) {
+  const auto truncated = static_cast<std::int64_t>(value);
+  return static_cast<double>(truncated) > value ? truncated - 1 : truncated;
+}
+
+// Filters what `read` tells of texels, a Value for a column and a row; where there is nothing that is 0.
+template <typename Value, typename Read>
+Value filtered(const Image& image, const Texture& texture, const Vec2& uv, const Read& read) {
+  const Value nothing(0.0F);
   // In double, so that far-off coordinates of repeated textures keep their place within a texel.
-  const double x = static_cast<double>(place.x) * image.width;
-  const double y = static_cast<double>(place.y) * image.height;
+  const double x = static_cast<double>(uv.x) * image.width;
+  const double y = static_cast<double>(uv.y) * image.height;
   constexpr double kFar = 1e15;  // beyond this a double has no fraction left
-  if (!(std::fabs(x) < kFar && std::fabs(y) < kFar)) return Value(0.0F);
+  if (!(std::fabs(x) < kFar && std::fabs(y) < kFar)) return nothing;
   if (texture.filter == TextureFilter::nearest) {
-    return texel(image, texture, reader, static_cast<std::int64_t>(std::floor(x)), static_cast<std::int64_t>(std::floor(y)));
+    std::int64_t column = whole_part(x);
+    std::int64_t row = whole_part(y);
+    if (!wrap(texture.wrap_u, image.width, column) || !wrap(texture.wrap_v, image.height, row)) return nothing;
+    return read(column, row);
   }
   // Texel centres are at half-integers.
-  const double left = std::floor(x - 0.5);
-  const double top = std::floor(y - 0.5);
-  const auto fx = static_cast<float>(x - 0.5 - left);
-  const auto fy = static_cast<float>(y - 0.5 - top);
-  const auto x0 = static_cast<std::int64_t>(left);
-  const auto y0 = static_cast<std::int64_t>(top);
-  const Value upper = texel(image, texture, reader, x0, y0) * (1.0F - fx) + texel(image, texture, reader, x0 + 1, y0) * fx;
-  const Value lower = texel(image, texture, reader, x0, y0 + 1) * (1.0F - fx) + texel(image, texture, reader, x0 + 1, y0 + 1) * fx;
+  std::int64_t left = whole_part(x - 0.5);
+  std::int64_t top = whole_part(y - 0.5);
+  const auto fx = static_cast<float>(x - 0.5 - static_cast<double>(left));
+  const auto fy = static_cast<float>(y - 0.5 - static_cast<double>(top));
+  std::int64_t right = left + 1;
+  std::int64_t bottom = top + 1;
+  const bool has_left = wrap(texture.wrap_u, image.width, left);
+  const bool has_right = wrap(texture.wrap_u, image.width, right);
+  const bool has_top = wrap(texture.wrap_v, image.height, top);
+  const bool has_bottom = wrap(texture.wrap_v, image.height, bottom);
+  const Value upper =
+      (has_top && has_left ? read(left, top) : nothing) * (1.0F - fx) + (has_top && has_right ? read(right, top) : nothing) * fx;
+  const Value lower = (has_bottom && has_left ? read(left, bottom) : nothing) * (1.0F - fx) +
+                      (has_bottom && has_right ? read(right, bottom) : nothing) * fx;
   return upper * (1.0F - fy) + lower * fy;
+}
+
+bool has_texels(const Image& image) {
+  return image.width > 0 && image.height > 0 && !(image.bytes.empty() && image.floats.empty());
 }
 
 Vec2 place_in(const Texture& texture, const TextureCoordinates& uv) {
   return Vec2(texture.uv_transform * Vec3(uv.of(texture.uv_set), 1.0F));
 }
 
-// Most numbers are one channel of a picture, of which the others need not be read.
-float evaluate_channel(const Scene& scene, std::uint32_t texture_id, std::uint32_t channel, const TextureCoordinates& uv) {
-  const Texture& texture = scene.textures[texture_id];
-  if (texture.kind != TextureKind::image) return evaluate_texture(scene, texture_id, uv)[static_cast<int>(channel)];
-  const Image& image = *scene.images[texture.image];
-  const float value = evaluate_image(image, texture, ChannelReader(image, texture, channel), place_in(texture, uv));
+Vec4 evaluate_image(const Image& image, const Texture& texture, const Vec2& uv) {
+  if (!has_texels(image)) return Vec4(0.0F);
+  const Texels texels(image, texture);
+  return filtered<Vec4>(image, texture, uv, [&](std::int64_t x, std::int64_t y) { return texels.at(x, y); });
+}
+
+// One channel of an image, as evaluate_texture has it.
+float evaluate_channel(const Image& image, const Texture& texture, const Vec2& uv, std::uint32_t channel) {
+  float value = 0.0F;
+  if (has_texels(image)) {
+    const Texels texels(image, texture);
+    value = filtered<float>(image, texture, uv, [&](std::int64_t x, std::int64_t y) { return texels.channel(x, y, channel); });
+  }
   return (texture.invert ? 1.0F - value : value) * texture.value[0][static_cast<int>(channel)];
 }
 
@@ -151,8 +168,7 @@ Vec4 evaluate_texture(const Scene& scene, std::uint32_t texture_id, const Textur
     case TextureKind::constant:
       return texture.value[0];
     case TextureKind::image: {
-      const Image& image = *scene.images[texture.image];
-      const Vec4 value = evaluate_image(image, texture, TexelReader(image, texture), place_in(texture, uv));
+      const Vec4 value = evaluate_image(*scene.images[texture.image], texture, place_in(texture, uv));
       return (texture.invert ? Vec4(1.0F) - value : value) * texture.value[0];
     }
     case TextureKind::checkerboard: {
@@ -177,7 +193,12 @@ Vec3 evaluate(const Scene& scene, const ColourParameter& parameter, const Textur
 
 float evaluate(const Scene& scene, const ScalarParameter& parameter, const TextureCoordinates& uv) {
   if (parameter.texture == kNoTexture) return parameter.value;
-  return parameter.value * evaluate_channel(scene, parameter.texture, std::min(parameter.channel, 3U), uv);
+  const std::uint32_t channel = std::min(parameter.channel, 3U);
+  const Texture& texture = scene.textures[parameter.texture];
+  if (texture.kind == TextureKind::image) {
+    return parameter.value * evaluate_channel(*scene.images[texture.image], texture, place_in(texture, uv), channel);
+  }
+  return parameter.value * evaluate_texture(scene, parameter.texture, uv)[static_cast<int>(channel)];
 }
 
 float mean_luminance(const Scene& scene, const ColourParameter& parameter) {
