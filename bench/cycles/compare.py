@@ -3,7 +3,7 @@
 
 Camera, sky, depth, size and threads are the same. Both render a reference of many samples, and then, in turns, pictures of 1, 4, 16, 64 and 256 samples with
 other seeds. Errors are root mean squares in linear light over pixels and channels, each against the renderer's own reference, so that no difference in what
-materials look like counts as noise. Writes what it measured as JSON and pictures side by side as PNG; comparison_table.py makes tables of the JSON.
+materials look like counts as noise. Writes what it measured as JSON and pictures side by side as PNG; bench/tables/cycles_table.py makes tables of the JSON.
 
 Without Blender it says so and ends; with --install it installs Debian's packages first (about 1 GB).
 

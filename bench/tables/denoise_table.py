@@ -17,7 +17,8 @@ import statistics
 import subprocess
 from pathlib import Path
 
-BEGIN, END = "<!-- denoise: begin -->", "<!-- denoise: end -->"
+import marked_page
+
 HEADINGS = ["scene", "samples", "filter", "RMSE", "relMSE", "FLIP", "HDR-FLIP", "mean", "filtered in", "whole"]
 
 
@@ -158,7 +159,7 @@ def main():
     parser.add_argument("--frames", type=int, default=16)
     parser.add_argument("--turn", type=float, default=7.5, help="degrees that the camera turns by from the first frame to the last")
     parser.add_argument("--references-only", action="store_true")
-    parser.add_argument("--into", type=Path, help="the page whose text between the marks is replaced")
+    marked_page.add_option(parser)
     options = parser.parse_args()
     options.size_of = lambda scene: (round(options.scale * scene.width), round(options.scale * scene.height))
     if options.references_only:
@@ -166,14 +167,7 @@ def main():
             Renders(options, name).reference()
         return
     result = text(options)
-    if not options.into:
-        print(result)
-        return
-    page = options.into.read_text()
-    if page.count(BEGIN) != 1 or page.count(END) != 1:
-        raise SystemExit(f"{options.into}: needs the marks {BEGIN} and {END} once")
-    before, rest = page.split(BEGIN)
-    options.into.write_text(f"{before}{BEGIN}\n\n{result}\n{END}{rest.split(END)[1]}")
+    marked_page.put(result, "denoise", options.into)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,8 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-BEGIN, END = "<!-- frames: begin -->", "<!-- frames: end -->"
+import marked_page
+
 ROWS = (("fast", "auto"), ("fast", "rebuild"), ("bvh", "auto"), ("bvh", "refit"), ("bvh", "rebuild"))
 COLUMNS = ("update", "trace", "shade", "layers", "filter", "frame")
 
@@ -71,18 +72,11 @@ def main():
     parser.add_argument("--spp", type=int, default=4)
     parser.add_argument("--width", type=int, default=1280)
     parser.add_argument("--height", type=int, default=720)
-    parser.add_argument("--into", type=Path, help="the page whose text between the marks is replaced")
+    marked_page.add_option(parser)
     parser.add_argument("--more", type=shlex.split, default="--animation Run --eye 150,75,125 --look-at 0,42,0", help="more options of grove render, in one word")
     options = parser.parse_args()
     result = text(options)
-    if not options.into:
-        print(result)
-        return
-    page = options.into.read_text()
-    if page.count(BEGIN) != 1 or page.count(END) != 1:
-        raise SystemExit(f"{options.into}: needs the marks {BEGIN} and {END} once")
-    before, rest = page.split(BEGIN)
-    options.into.write_text(f"{before}{BEGIN}\n\n{result}\n{END}{rest.split(END)[1]}")
+    marked_page.put(result, "frames", options.into)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Writes what `grove_rival_bench --json F` measured into docs/performance.md, between its marks, or prints it.
 
-usage: rival_table.py F.json [--into docs/performance.md]
+usage: rival_table.py F.json [--samples] [--into docs/performance.md]
+
+--samples makes the table of camera rays alone, of a report of `grove_rival_bench --kinds primary --samples N`, which has a place of its own on the page.
 
 Ratios are rates of Grove's to those of the quickest of a group of Embree's settings on the same scene and rays: quality medium or high, its own choice of
 instruction set or AVX2.
@@ -11,7 +13,8 @@ import json
 import math
 from pathlib import Path
 
-BEGIN, END = "<!-- rivals: begin -->", "<!-- rivals: end -->"
+import marked_page
+
 KINDS = ("primary", "diffuse", "shadow", "random")
 # Structure, rays a call, and the group that it is set against.
 ROWS = (
@@ -118,22 +121,29 @@ def text(report):
     return "\n".join(parts)
 
 
+def text_of_samples(report):
+    scenes = report["scenes"]
+    groups = ("single", "single robust", "packets of 8", "packets of 16", "packets of 16 robust")
+    rows = []
+    for scene in scenes:
+        rows.append([short(scene["scene"]), *(spread(find(scene, "fast", 1024, group, "primary", 1)) for group in groups)])
+    heading = f"Camera rays, {report['samples_per_pixel']} of each pixel one after another, {report['rays']:,} in all, {report['rounds']} rounds: "
+    return heading + "`fast`, 1024 a call, beside Embree's quickest of each group, one pinned thread, median (min–max):\n\n" + table(["scene", *groups], rows)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("report", type=Path)
-    parser.add_argument("--into", type=Path, help="the page whose text between the marks is replaced")
+    parser.add_argument("--samples", action="store_true", help="the table of camera rays alone")
+    marked_page.add_option(parser)
     options = parser.parse_args()
     report = json.loads(options.report.read_text())
     if report.get("format") != "grove-rivals":
         raise SystemExit(f"{options.report}: not written by grove_rival_bench --json")
-    if not options.into:
-        print(text(report))
-        return
-    page = options.into.read_text()
-    if page.count(BEGIN) != 1 or page.count(END) != 1:
-        raise SystemExit(f"{options.into}: needs the marks {BEGIN} and {END} once")
-    before, rest = page.split(BEGIN)
-    options.into.write_text(f"{before}{BEGIN}\n\n{text(report)}\n{END}{rest.split(END)[1]}")
+    if options.samples:
+        marked_page.put(text_of_samples(report), "rivals of samples", options.into)
+    else:
+        marked_page.put(text(report), "rivals", options.into)
 
 
 if __name__ == "__main__":

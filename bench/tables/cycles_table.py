@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Writes what compare.py measured into docs/rendering.md, between its marks, or prints it.
 
-usage: comparison_table.py F.json [--clock processor|clock] [--into docs/rendering.md]
+usage: cycles_table.py F.json [--clock processor|clock] [--into docs/rendering.md]
 """
 
 import argparse
 import json
 import pathlib
 
-BEGIN, END = "<!-- cycles: begin -->", "<!-- cycles: end -->"
+import marked_page
+
 KINDS = {"processor": "processor time", "clock": "time by the clock"}
 
 
@@ -58,19 +59,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("report", type=pathlib.Path)
     parser.add_argument("--clock", choices=sorted(KINDS), default="processor", help="which seconds")
-    parser.add_argument("--into", type=pathlib.Path, help="the page whose text between the marks is replaced")
+    marked_page.add_option(parser)
     options = parser.parse_args()
     report = json.loads(options.report.read_text())
     if report.get("format") != "grove-cycles":
         raise SystemExit(f"{options.report}: not written by compare.py --json")
-    if not options.into:
-        print(text(report, options.clock))
-        return
-    page = options.into.read_text()
-    if page.count(BEGIN) != 1 or page.count(END) != 1:
-        raise SystemExit(f"{options.into}: needs the marks {BEGIN} and {END} once")
-    before, rest = page.split(BEGIN)
-    options.into.write_text(f"{before}{BEGIN}\n\n{text(report, options.clock)}\n{END}{rest.split(END)[1]}")
+    marked_page.put(text(report, options.clock), "cycles", options.into)
 
 
 if __name__ == "__main__":
