@@ -190,7 +190,7 @@ class BatchKernel {
         memory_.slot(number).next = word;
         testing |= SlotSet{1} << number;
       }
-      leaves_.test(testing);
+      leaves_.test_side_by_side(testing, packet_.rays(), rays, slot_of);
       Rays finished = 0;
       for (Rays left = rays; left != 0; left &= left - 1) {
         const auto ray = static_cast<std::uint32_t>(std::countr_zero(left));

@@ -22,27 +22,18 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Corners as the ray sees them, and the edge functions.
-template <typename D>
-struct ShearedTriangles {
-  using V = hn::Vec<D>;
-
+// Corners as rays see them: several triangles and one ray, or one triangle and several rays.
+template <typename V>
+struct ShearedCorners {
   V x[3];
   V y[3];
   V z[3];
-  V edge[3];
 
-  HWY_INLINE ShearedTriangles(D d, const BatchRay& ray, const TriangleBlock& block, std::size_t first) {
-    for (int corner = 0; corner < 3; ++corner) {
-      z[corner] = hn::Add(hn::LoadU(d, block.corners[ray.axes.kz][corner] + first), hn::Set(d, ray.minus_origin_k[2]));
-      const V along_x = hn::Add(hn::LoadU(d, block.corners[ray.axes.kx][corner] + first), hn::Set(d, ray.minus_origin_k[0]));
-      const V along_y = hn::Add(hn::LoadU(d, block.corners[ray.axes.ky][corner] + first), hn::Set(d, ray.minus_origin_k[1]));
-      x[corner] = hn::Sub(along_x, hn::Mul(hn::Set(d, ray.shear_x), z[corner]));
-      y[corner] = hn::Sub(along_y, hn::Mul(hn::Set(d, ray.shear_y), z[corner]));
-    }
-    edge[0] = hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1]));
-    edge[1] = hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2]));
-    edge[2] = hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(y[1], x[0]));
+  // Of a corner along the axes of the ray, relative to its origin.
+  HWY_INLINE void set(int corner, V along_x, V along_y, V along_z, V shear_x, V shear_y) {
+    z[corner] = along_z;
+    x[corner] = hn::Sub(along_x, hn::Mul(shear_x, along_z));
+    y[corner] = hn::Sub(along_y, hn::Mul(shear_y, along_z));
   }
 };
 
@@ -57,41 +48,58 @@ HWY_INLINE V dot3(const V a[3], const V b[3]) {
   return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
 }
 
-// Bit i of `possible`: triangle i may be hit, as the ray does not pass outside of an edge, nor is the triangle too far away or too near. Bit i of
-// `certain`: it is hit, wherever between its corners. (That is told for any hit only.)
+// Bit i of `possible`: pair i of a ray and a triangle may be a hit, as the ray does not pass outside of an edge, nor is the triangle too far away or too near.
+// Bit i of `certain`: it is one, wherever between the corners. (That is told for any hit only.)
 struct BlockFilter {
   std::uint32_t possible = 0;
   std::uint32_t certain = 0;
 };
 
+template <bool kTellCertain, typename D, typename V = hn::Vec<D>>
+HWY_INLINE BlockFilter filter_sheared(D d, const ShearedCorners<V>& corners, V inverse_z, V depth_pad, V nearest, V farthest) {
+  const V(&x)[3] = corners.x;
+  const V(&y)[3] = corners.y;
+  const V edge[3] = {hn::Sub(hn::Mul(x[2], y[1]), hn::Mul(y[2], x[1])), hn::Sub(hn::Mul(x[0], y[2]), hn::Mul(y[0], x[2])),
+                     hn::Sub(hn::Mul(x[1], y[0]), hn::Mul(y[1], x[0]))};
+  const V t[3] = {hn::Mul(corners.z[0], inverse_z), hn::Mul(corners.z[1], inverse_z), hn::Mul(corners.z[2], inverse_z)};
+  const V zero = hn::Zero(d);
+  const V least_t = hn::Sub(hn::Min(hn::Min(t[0], t[1]), t[2]), depth_pad);
+  const V most_t = hn::Add(hn::Max(hn::Max(t[0], t[1]), t[2]), depth_pad);
+  const V least_edge = hn::Min(hn::Min(edge[0], edge[1]), edge[2]);
+  const V most_edge = hn::Max(hn::Max(edge[0], edge[1]), edge[2]);
+  const auto in_range = hn::And(hn::Le(least_t, farthest), hn::Ge(most_t, nearest));
+  const auto inside = hn::Or(hn::Ge(least_edge, zero), hn::Le(most_edge, zero));
+  BlockFilter filter;
+  filter.possible = bits_of(d, hn::And(in_range, inside));
+  if constexpr (kTellCertain) {
+    const auto surely_in_range = hn::And(hn::Ge(least_t, nearest), hn::Le(most_t, farthest));
+    // Far from where the watertight test would ask doubles.
+    const V tiny = hn::Set(d, 1e-30F);
+    const auto surely_inside = hn::Or(hn::Gt(least_edge, tiny), hn::Lt(most_edge, hn::Neg(tiny)));
+    const auto finite = hn::Lt(most_t, hn::Set(d, std::numeric_limits<float>::infinity()));
+    filter.certain = bits_of(d, hn::And(hn::And(surely_in_range, finite), surely_inside));
+  }
+  return filter;
+}
+
+// Of a block's triangles for a ray.
 template <bool kTellCertain>
 HWY_INLINE BlockFilter filter_block(const BatchRay& ray, float t_max, const TriangleBlock& block) {
   const hn::CappedTag<float, TriangleBlock::kWidth> d;
-  using V = hn::Vec<decltype(d)>;
   BlockFilter filter;
   for (std::size_t first = 0; first < TriangleBlock::kWidth; first += hn::MaxLanes(d)) {
-    const ShearedTriangles<decltype(d)> triangles(d, ray, block, first);
-    const V inverse_z = hn::Set(d, ray.inverse_z);
-    const V t[3] = {hn::Mul(triangles.z[0], inverse_z), hn::Mul(triangles.z[1], inverse_z), hn::Mul(triangles.z[2], inverse_z)};
-    const V zero = hn::Zero(d);
-    const V pad = hn::Set(d, ray.depth_pad);
-    const V least_t = hn::Sub(hn::Min(hn::Min(t[0], t[1]), t[2]), pad);
-    const V most_t = hn::Add(hn::Max(hn::Max(t[0], t[1]), t[2]), pad);
-    const V least_edge = hn::Min(hn::Min(triangles.edge[0], triangles.edge[1]), triangles.edge[2]);
-    const V most_edge = hn::Max(hn::Max(triangles.edge[0], triangles.edge[1]), triangles.edge[2]);
-    const V farthest = hn::Set(d, t_max);
-    const V nearest = hn::Set(d, ray.t_min);
-    const auto in_range = hn::And(hn::Le(least_t, farthest), hn::Ge(most_t, nearest));
-    const auto inside = hn::Or(hn::Ge(least_edge, zero), hn::Le(most_edge, zero));
-    filter.possible |= bits_of(d, hn::And(in_range, inside)) << first;
-    if constexpr (kTellCertain) {
-      const auto surely_in_range = hn::And(hn::Ge(least_t, nearest), hn::Le(most_t, farthest));
-      // Far from where the watertight test would ask doubles.
-      const V tiny = hn::Set(d, 1e-30F);
-      const auto surely_inside = hn::Or(hn::Gt(least_edge, tiny), hn::Lt(most_edge, hn::Neg(tiny)));
-      const auto finite = hn::Lt(most_t, hn::Set(d, std::numeric_limits<float>::infinity()));
-      filter.certain |= bits_of(d, hn::And(hn::And(surely_in_range, finite), surely_inside)) << first;
+    const auto along = [&](std::uint32_t axis, int corner, float minus_origin) {
+      return hn::Add(hn::LoadU(d, block.corners[axis][corner] + first), hn::Set(d, minus_origin));
+    };
+    ShearedCorners<hn::Vec<decltype(d)>> corners;
+    for (int corner = 0; corner < 3; ++corner) {
+      corners.set(corner, along(ray.axes.kx, corner, ray.minus_origin_k[0]), along(ray.axes.ky, corner, ray.minus_origin_k[1]),
+                  along(ray.axes.kz, corner, ray.minus_origin_k[2]), hn::Set(d, ray.shear_x), hn::Set(d, ray.shear_y));
     }
+    const BlockFilter some = filter_sheared<kTellCertain>(d, corners, hn::Set(d, ray.inverse_z), hn::Set(d, ray.depth_pad),
+                                                          hn::Set(d, ray.t_min), hn::Set(d, t_max));
+    filter.possible |= some.possible << first;
+    filter.certain |= some.certain << first;
   }
   return filter;
 }

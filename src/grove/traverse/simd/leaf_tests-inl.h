@@ -20,6 +20,7 @@
 #include "grove/traverse/simd/block_hits-inl.h"
 #include "grove/traverse/simd/block_test-inl.h"
 #include "grove/traverse/simd/node_step-inl.h"
+#include "grove/traverse/simd/packet_rays-inl.h"
 #include "grove/traverse/simd/triangle_test.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -50,7 +51,42 @@ class LeafTests {
     }
   }
 
+  // The same for slots that are at one block, and whose rays are some of a packet: ray i is in slot slot_of[i].
+  HWY_INLINE void test_side_by_side(SlotSet testing, const PacketRays& packet, PacketRays::Set rays, const std::uint8_t* slot_of) {
+    if (kTest != TriangleTest::watertight || !packet.has_one_kind_of_axes || std::popcount(rays) < kFewestSideBySide) {
+      test(testing);
+      return;
+    }
+    const TriangleBlock& block = gathered(block_at(memory_.slot(slot_of[std::countr_zero(rays)])), query_.scene.vertices);
+    std::uint8_t possible[kSlots] = {};
+    SlotSet settling = 0;
+    const std::uint32_t count = block.count();
+    for (std::uint32_t place = 0; place < count; ++place) {
+      const PacketRays::Pairs pairs = packet.filter<kAnywhere>(block, place, rays);
+      if constexpr (kAnywhere) {
+        for (PacketRays::Set left = pairs.certain; left != 0; left &= left - 1) {
+          const std::uint32_t number = slot_of[std::countr_zero(left)];
+          memory_.slot(number).primitive = 0;
+          memory_.slot(number).stack_size = 1;
+          settling &= ~(SlotSet{1} << number);
+        }
+        rays &= ~pairs.certain;
+      }
+      for (PacketRays::Set left = pairs.possible & rays; left != 0; left &= left - 1) {
+        const std::uint32_t number = slot_of[std::countr_zero(left)];
+        possible[number] = static_cast<std::uint8_t>(possible[number] | 1U << place);
+        settling |= SlotSet{1} << number;
+      }
+    }
+    if constexpr (kGathers)
+      for (SlotSet left = settling; left != 0;) gathered_[take_first(left)] = block;
+    settle(settling, possible);
+  }
+
  private:
+  // With fewer rays it is quicker to test a block's triangles for each.
+  static constexpr int kFewestSideBySide = 12;
+
   [[nodiscard]] HWY_INLINE const Block& block_at(const BatchSlot& slot) const { return place_of<Block>(units_, slot.next); }
 
   // Brings the triangles of leaves together where blocks only number their corners: asks for all corners first, so that they come side by side.

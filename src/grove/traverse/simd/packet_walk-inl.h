@@ -24,6 +24,7 @@
 #include "grove/traverse/simd/batch_slot.h"
 #include "grove/traverse/simd/compaction-inl.h"
 #include "grove/traverse/simd/node_step-inl.h"
+#include "grove/traverse/simd/packet_rays-inl.h"
 #include "grove/traverse/simd/ray_group-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -59,9 +60,8 @@ class PacketWalk {
   using Node = typename Bvh::Node;
 
  public:
-  static constexpr std::size_t kRays = kPacketRays;
-  using Rays = std::uint32_t;
-  static_assert(kRays == 32);
+  static constexpr std::size_t kRays = PacketRays::kCount;
+  using Rays = PacketRays::Set;
   // Children that no more rays enter are handed over.
   static constexpr int kFew = 4;
   // Where fewer rays than that enter what is tested, on average and after so many tests, each does better alone.
@@ -70,22 +70,14 @@ class PacketWalk {
 
   explicit PacketWalk(const Bvh& bvh) : bounds_(bvh.bounds), units_(bvh.units()) {}
 
-  // Takes the rays of a group that is a packet.
   HWY_INLINE void take(const RayGroup<kRays>& group, const Ray* rays) {
-    rows_ = kPlaneRows[group.setup(0).octant(0)];
-    for (std::size_t i = 0; i < group.kSetups; ++i) {
-      const std::size_t first = i * RayGroup<kRays>::Setup::kCount;
-      float* const inverse[3] = {inverse_[0] + first, inverse_[1] + first, inverse_[2] + first};
-      float* const near_offset[3] = {near_offset_[0] + first, near_offset_[1] + first, near_offset_[2] + first};
-      float* const far_offset[3] = {far_offset_[0] + first, far_offset_[1] + first, far_offset_[2] + first};
-      group.setup(i).store_slabs(inverse, near_offset, far_offset, t_min_ + first);
-    }
-    for (std::size_t i = 0; i < kRays; ++i) t_[i] = rays[i].t_max;
+    rays_.take(group, rays);
     bound(rays[0].origin);
   }
+  [[nodiscard]] const PacketRays& rays() const { return rays_; }
 
   // What is behind this is no longer looked for.
-  void shorten(std::uint32_t ray, float t) { t_[ray] = t; }
+  void shorten(std::uint32_t ray, float t) { rays_.t[ray] = t; }
 
   // Visits leaves near to far, as far as near and far are the same for the rays: test_leaf(word, rays) tests the block for some, calls shorten() for those
   // that it shortens and returns those that look for nothing more. hand_over(word, rays, nears) has the child visited later by these rays, from the distances
@@ -110,7 +102,7 @@ class PacketWalk {
       }
       left &= ~test_leaf(entry.word, rays);
       if (left == 0) return;
-      farthest_ = largest(t_);
+      farthest_ = largest(rays_.t);
     }
   }
 
@@ -143,15 +135,15 @@ class PacketWalk {
   HWY_INLINE void bound(const Vec3& c) {
     for (int axis = 0; axis < 3; ++axis) {
       center_[axis] = c[axis];
-      inverse_bounds_[axis][0] = least(inverse_[axis]);
-      inverse_bounds_[axis][1] = largest(inverse_[axis]);
+      inverse_bounds_[axis][0] = least(rays_.inverse[axis]);
+      inverse_bounds_[axis][1] = largest(rays_.inverse[axis]);
       HWY_ALIGN float near_rest[kRays];
       HWY_ALIGN float far_rest[kRays];
       const hn::CappedTag<float, 16> d;
       for (std::size_t i = 0; i < kRays; i += hn::MaxLanes(d)) {
-        const auto inverse = hn::Load(d, inverse_[axis] + i);
-        hn::Store(hn::MulAdd(hn::Set(d, c[axis]), inverse, hn::Load(d, near_offset_[axis] + i)), d, near_rest + i);
-        hn::Store(hn::MulAdd(hn::Set(d, c[axis]), inverse, hn::Load(d, far_offset_[axis] + i)), d, far_rest + i);
+        const auto inverse = hn::Load(d, rays_.inverse[axis] + i);
+        hn::Store(hn::MulAdd(hn::Set(d, c[axis]), inverse, hn::Load(d, rays_.near_offset[axis] + i)), d, near_rest + i);
+        hn::Store(hn::MulAdd(hn::Set(d, c[axis]), inverse, hn::Load(d, rays_.far_offset[axis] + i)), d, far_rest + i);
       }
       // Products and sums round four times by 2^-24 of what they are, which is at most the way to the farthest plane, and c.
       const float reach = std::max(std::abs(bounds_.lower[axis] - c[axis]), std::abs(bounds_.upper[axis] - c[axis])) + std::abs(c[axis]);
@@ -160,8 +152,8 @@ class PacketWalk {
       near_rest_[axis] = least(near_rest) - pad;
       far_rest_[axis] = largest(far_rest) + pad;
     }
-    nearest_ = least(t_min_);
-    farthest_ = largest(t_);
+    nearest_ = least(rays_.t_min());
+    farthest_ = largest(rays_.t);
   }
 
   // Which children's boxes the intervals meet.
@@ -175,8 +167,8 @@ class PacketWalk {
         const auto center = hn::Set(d, center_[axis]);
         const auto low = hn::Set(d, inverse_bounds_[axis][0]);
         const auto high = hn::Set(d, inverse_bounds_[axis][1]);
-        const auto to_near = hn::Sub(row_of_planes(d, node, axis, rows_.near[axis], first), center);
-        const auto to_far = hn::Sub(row_of_planes(d, node, axis, rows_.far[axis], first), center);
+        const auto to_near = hn::Sub(row_of_planes(d, node, axis, rays_.rows.near[axis], first), center);
+        const auto to_far = hn::Sub(row_of_planes(d, node, axis, rays_.rows.far[axis], first), center);
         near = hn::Max(near, hn::Add(hn::Min(hn::Mul(to_near, low), hn::Mul(to_near, high)), hn::Set(d, near_rest_[axis])));
         far = hn::Min(far, hn::Add(hn::Max(hn::Mul(to_far, low), hn::Mul(to_far, high)), hn::Set(d, far_rest_[axis])));
       }
@@ -188,7 +180,7 @@ class PacketWalk {
   HWY_INLINE void push_children(std::uint32_t word, Rays rays) {
     const Node& node = place_of<Node>(units_, word);
     const std::uint32_t met = met_by_any(node);
-    const std::uint32_t order = node.order_for(rows_.octant);
+    const std::uint32_t order = node.order_for(rays_.rows.octant);
     for (int k = 0; k < FastNode::kWidth; ++k) {
       const std::uint32_t place = order >> (3 * k) & 7U;
       const auto child = std::bit_cast<std::uint32_t>(node.child[place]);
@@ -208,16 +200,16 @@ class PacketWalk {
     Rays met = 0;
     float planes[3][2];
     for (int axis = 0; axis < 3; ++axis) {
-      planes[axis][0] = plane_of(*entry.parent, axis, rows_.near[axis], entry.place);
-      planes[axis][1] = plane_of(*entry.parent, axis, rows_.far[axis], entry.place);
+      planes[axis][0] = plane_of(*entry.parent, axis, rays_.rows.near[axis], entry.place);
+      planes[axis][1] = plane_of(*entry.parent, axis, rays_.rows.far[axis], entry.place);
     }
     for (std::size_t i = 0; i < kRays; i += hn::MaxLanes(d)) {
-      auto near = hn::Load(d, t_min_ + i);
-      auto far = hn::Load(d, t_ + i);
+      auto near = hn::Load(d, rays_.t_min() + i);
+      auto far = hn::Load(d, rays_.t + i);
       for (int axis = 0; axis < 3; ++axis) {
-        const auto inverse = hn::Load(d, inverse_[axis] + i);
-        near = hn::Max(near, hn::MulAdd(hn::Set(d, planes[axis][0]), inverse, hn::Load(d, near_offset_[axis] + i)));
-        far = hn::Min(far, hn::MulAdd(hn::Set(d, planes[axis][1]), inverse, hn::Load(d, far_offset_[axis] + i)));
+        const auto inverse = hn::Load(d, rays_.inverse[axis] + i);
+        near = hn::Max(near, hn::MulAdd(hn::Set(d, planes[axis][0]), inverse, hn::Load(d, rays_.near_offset[axis] + i)));
+        far = hn::Min(far, hn::MulAdd(hn::Set(d, planes[axis][1]), inverse, hn::Load(d, rays_.far_offset[axis] + i)));
       }
       hn::Store(near, d, near_ + i);
       met |= bits_of(d, hn::Le(near, far)) << i;
@@ -227,13 +219,7 @@ class PacketWalk {
 
   const Box bounds_;
   const FastUnit* const units_;
-  PlaneRows rows_;
-  // By ray.
-  HWY_ALIGN float inverse_[3][kRays];
-  HWY_ALIGN float near_offset_[3][kRays];
-  HWY_ALIGN float far_offset_[3][kRays];
-  HWY_ALIGN float t_min_[kRays];
-  HWY_ALIGN float t_[kRays];
+  PacketRays rays_;
   HWY_ALIGN float near_[kRays];
   // Of all rays.
   float center_[3];

@@ -60,6 +60,13 @@ class RayGroup {
     return true;
   }
 
+  // Whether triangles are tested along the same axes for all rays of a full group.
+  [[nodiscard]] bool has_one_kind_of_axes() const {
+    for (const Setup& setup : setups_)
+      if (!setup.has_one_kind_of_axes() || setup.axes(0) != setups_[0].axes(0)) return false;
+    return true;
+  }
+
  private:
   // By how much of the longest component of the first, and of the scene, rays may differ. Measured where packets begin to gain.
   static constexpr float kMostSpread = 1.0F / 48.0F;

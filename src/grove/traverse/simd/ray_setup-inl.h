@@ -86,14 +86,29 @@ class RaySetup {
     return hn::AllTrue(du, hn::Eq(hn::Load(du, octant_), hn::Set(du, octant_[0])));
   }
 
-  // What the test of slabs needs, by ray.
-  HWY_INLINE void store_slabs(float* const inverse[3], float* const near_offset[3], float* const far_offset[3], float* t_min) const {
+  // The axes that the test of triangles takes them along.
+  [[nodiscard]] std::uint32_t axes(std::size_t i) const { return axes_[i]; }
+  [[nodiscard]] bool has_one_kind_of_axes() const {
+    const DU du;
+    return hn::AllTrue(du, hn::Eq(hn::Load(du, axes_), hn::Set(du, axes_[0])));
+  }
+
+  // What BatchRay has, in rows, of which ray 0 has place `first`.
+  template <std::size_t kLength>
+  HWY_INLINE void store_rows(float (*inverse)[kLength], float (*near_offset)[kLength], float (*far_offset)[kLength],
+                             float (*minus_origin_k)[kLength], float* shear_y, std::size_t first) const {
     const D d;
-    V last;
-    store_first_three(inverse_, inverse, last);
-    hn::StoreU(last, d, t_min);
-    store_first_three(near_offset_, near_offset, last);
-    store_first_three(far_offset_, far_offset, last);
+    V v[4];
+    const auto store = [&](const float* four, float(*rows)[kLength]) {
+      hn::LoadInterleaved4(d, four, v[0], v[1], v[2], v[3]);
+      for (int row = 0; row < 4; ++row) hn::StoreU(v[row], d, rows[row] + first);
+    };
+    store(inverse_, inverse);
+    store(near_offset_, near_offset);
+    store(far_offset_, far_offset);
+    store(minus_origin_k_, minus_origin_k);
+    hn::LoadInterleaved4(d, direction_k_, v[0], v[1], v[2], v[3]);
+    hn::StoreU(v[3], d, shear_y + first);
   }
 
   HWY_INLINE void copy(std::size_t i, BatchRay& ray) const {
@@ -114,13 +129,6 @@ class RaySetup {
     V t_min;
     V t_max;
   };
-
-  static HWY_INLINE void store_first_three(const float* four, float* const three[3], V& fourth) {
-    const D d;
-    V v[3];
-    hn::LoadInterleaved4(d, four, v[0], v[1], v[2], fourth);
-    for (int axis = 0; axis < 3; ++axis) hn::StoreU(v[axis], d, three[axis]);
-  }
 
   static HWY_INLINE V largest(const V v[3]) { return hn::Max(hn::Max(v[0], v[1]), v[2]); }
 
