@@ -173,7 +173,10 @@ TEST_P(FastBatch, FindsWhatAFilterLeaves) {
   const BatchHitFilter filter(refuse_half_of_ray, nullptr);
   std::size_t hit_count = 0;
   for (const Filtered& of : filtered(spec())) {
-    const std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(of.geometry, 8, 13));
+    std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(of.geometry, 8, 13));
+    const std::vector<Ray> side_by_side = with_neighbours(matrix_rays(of.geometry, 1, 15), 31);
+    rays.resize(rays.size() / 32 * 32);  // neighbours fall into one group of the kernel
+    rays.insert(rays.end(), side_by_side.begin(), side_by_side.end());
     std::vector<Hit> hits(rays.size());
     std::vector<std::uint8_t> results(rays.size(), 7);
     of.structure->intersect(rays, hits, filter);
@@ -195,7 +198,9 @@ TEST_P(FastBatch, FindsWhatAFilterLeaves) {
 TEST_P(FastBatch, AsksAboutAllThatIsRefused) {
   std::size_t most = 0;
   for (const Filtered& of : filtered(spec())) {
-    const std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(of.geometry, 4, 14));
+    std::vector<Ray> rays = with_neighbours(matrix_rays(of.geometry, 1, 16), 31);
+    const std::vector<Ray> others = with_long_and_short_directions(matrix_rays(of.geometry, 3, 14));
+    rays.insert(rays.end(), others.begin(), others.end());
     RefuseAll on_the_rays;
     RefuseAll asked;
     RefuseAll asked_in_batch;
