@@ -16,6 +16,11 @@
 
 namespace grove {
 
+/// Where leaves are decided later, what is tested at once still need not be parted: parting it mostly costs more.
+[[nodiscard]] inline std::uint32_t leaf_size_before_widening(const BvhOptions& options) {
+  return options.leaves_are_decided_later() ? options.block_size : options.leaf_size;
+}
+
 /// How `options` want sets to be split from the top, by bins where they name a builder of another kind.
 [[nodiscard]] inline TopDownSettings top_down_settings(const BvhOptions& options) {
   static const std::map<std::string_view, ObjectSplit> kObjectSplits = {{"binned", ObjectSplit::binned},
@@ -25,7 +30,7 @@ namespace grove {
   TopDownSettings settings;
   if (const auto found = kObjectSplits.find(options.split); found != kObjectSplits.end()) settings.split = found->second;
   if (options.cost == "equation-2") settings.cost.split_cost = SplitCost::equation_2;
-  settings.leaf_size = options.leaf_size;
+  settings.leaf_size = leaf_size_before_widening(options);
   settings.cost.block_size = options.block_size;
   return settings;
 }
@@ -35,14 +40,13 @@ template <Geometry G>
 [[nodiscard]] Bvh2 build_by_split(const G& geometry, const BvhOptions& options) {
   if (options.split == "lbvh" || options.split == "ploc") {
     BottomUpSettings settings;
-    settings.leaf_size = options.leaves_are_decided_later() ? 1 : options.leaf_size;
+    settings.leaf_size = leaf_size_before_widening(options);
+    settings.cost.block_size = options.block_size;
     settings.radius = options.radius;
     ReferenceList list = list_references(geometry);
     return options.split == "lbvh" ? build_lbvh(list, settings) : build_ploc(std::move(list), settings);
   }
   TopDownSettings settings = top_down_settings(options);
-  // What is tested at once need not be parted, as parting it mostly costs more.
-  if (options.leaves_are_decided_later()) settings.leaf_size = options.block_size;
   if (options.split == "spatial") return build_with_spatial_splits(geometry, settings);
   return build_top_down(list_references(geometry), settings);
 }
