@@ -21,9 +21,9 @@ void keep_new(const std::vector<std::string>& lines, std::vector<std::string>& a
 FrameRenderer::FrameRenderer(AnimatedScene& scene, std::string_view spec, UpdatePolicy policy)
     : scene_(scene), spec_(canonical_spec(spec)), policy_(policy) {}
 
-void FrameRenderer::follow(double time, RenderedFrame& frame) {
+SceneChanges FrameRenderer::follow(double time, RenderedFrame& frame) {
   const Timer posing;
-  changes_ = scene_.move_to(time);
+  SceneChanges changes = scene_.move_to(time);
   frame.pose_seconds += posing.seconds();
   if (accelerator_ == nullptr) {
     const Timer building;
@@ -32,19 +32,20 @@ void FrameRenderer::follow(double time, RenderedFrame& frame) {
         std::make_unique<SceneAccelerator>(scene_.scene(), spec_, has_moving_instances ? TopLevel::always : TopLevel::where_needed);
     frame.is_built = true;
     frame.build_seconds = building.seconds();
-    return;
+    return changes;
   }
-  frame.moved_instances += static_cast<std::uint32_t>(changes_.instances.size());
-  frame.moved_objects += static_cast<std::uint32_t>(changes_.objects.size());
+  frame.moved_instances += static_cast<std::uint32_t>(changes.instances.size());
+  frame.moved_objects += static_cast<std::uint32_t>(changes.objects.size());
   const double seconds = frame.update.seconds;
-  frame.update = accelerator_->update(scene_.scene(), changes_, policy_, rays_);
+  frame.update = accelerator_->update(scene_.scene(), changes, policy_, rays_);
   frame.update.seconds += seconds;
+  return changes;
 }
 
-double FrameRenderer::prepare(LightSampling sampling) {
+double FrameRenderer::prepare(const SceneChanges& changes, LightSampling sampling) {
   const Timer timer;
   if (world_ != nullptr && world_->lights.sampling() == sampling) {
-    world_->follow(changes_);
+    world_->follow(changes);
   } else {
     world_ = std::make_unique<PreparedScene>(scene_.scene(), *accelerator_, sampling);
   }
@@ -69,8 +70,8 @@ RenderedFrame FrameRenderer::render(RenderSettings settings, const Exposure& exp
   std::vector<std::string> warnings;
   for (std::uint32_t k = 0; k < times; ++k) {
     const double time = exposure.time + exposure.duration * (k + 0.5) / times;
-    follow(time, frame);
-    const double prepare_seconds = prepare(settings.lights);
+    const SceneChanges changes = follow(time, frame);
+    const double prepare_seconds = prepare(changes, settings.lights);
     if (viewpoint) settings.viewpoint = viewpoint(time);
     RenderCheckpoints so_far;
     if (times > 1) settings.part.end_sample = static_cast<std::uint32_t>(samples * (k + 1) / times);

@@ -54,17 +54,17 @@ class FrameRenderer {
   [[nodiscard]] const SceneAccelerator* accelerator() const { return accelerator_.get(); }
 
  private:
-  void follow(double time, RenderedFrame& frame);
-  /// Has tables of surfaces, materials and lights for where the scene is now. Returns the seconds that it took.
-  double prepare(LightSampling sampling);
+  /// Moves the scene to a time and has the structure follow. Returns what moved.
+  SceneChanges follow(double time, RenderedFrame& frame);
+  /// Has tables of surfaces, materials and lights for where the scene is after these changes. Returns the seconds that it took.
+  double prepare(const SceneChanges& changes, LightSampling sampling);
 
   AnimatedScene& scene_;
   std::string spec_;
   UpdatePolicy policy_;
   std::unique_ptr<SceneAccelerator> accelerator_;
   std::unique_ptr<PreparedScene> world_;
-  SceneChanges changes_;  // since the tables were prepared
-  double rays_ = 0.0;     // that were traced from the last update to this one
+  double rays_ = 0.0;  // that were traced from the last update to this one
 };
 
 }  // namespace grove

@@ -66,6 +66,7 @@ inline constexpr std::uint32_t kSingles = 32;
 inline constexpr std::uint32_t kPacketRays = 32;
 // So many children a packet may hand over to a ray.
 inline constexpr std::uint32_t kMostHandedOver = 24;
+
 // Sets of slots, a bit for each. A list in memory would be written at places that depend on where rays go, and all loads behind would wait.
 using SlotSet = std::uint64_t;
 static_assert(kSlots <= 64);

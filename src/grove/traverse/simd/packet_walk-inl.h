@@ -33,7 +33,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The planes of a row of boxes, in floats.
+// The planes of a row of boxes, in floats. On a grid they round once, by 2^-24 of what they are, which the ray's own pad allows for as in node_step-inl.h.
 template <typename D>
 HWY_INLINE hn::Vec<D> row_of_planes(D d, const FastNode& node, int /*axis*/, std::uint32_t row, std::size_t first) {
   return hn::LoadU(d, &node.bounds.planes[0][0][0] + row + first);
@@ -70,6 +70,7 @@ class PacketWalk {
 
   explicit PacketWalk(const Bvh& bvh) : bounds_(bvh.bounds), units_(bvh.units()) {}
 
+  // Takes the rays of a group that is a packet.
   HWY_INLINE void take(const RayGroup<kRays>& group, const Ray* rays) {
     rays_.take(group, rays);
     bound(rays[0].origin);
