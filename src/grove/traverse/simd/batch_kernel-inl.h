@@ -173,7 +173,7 @@ class BatchKernel {
 
   // Traces the group's rays side by side, until each is alone or finished.
   HWY_INLINE void trace_packet() {
-    using Rays = typename PacketWalk<Bvh>::Rays;
+    using Rays = typename PacketWalk<Bvh, kAny>::Rays;
     packet_.take(group_, query_.rays + next_ray_);
     std::uint8_t slot_of[kPacketRays];
     SlotSet slots = 0;
@@ -249,7 +249,7 @@ class BatchKernel {
 
   const BatchQuery<Bvh>& query_;
   RayGroup<kPacketRays> group_;
-  PacketWalk<Bvh> packet_;
+  PacketWalk<Bvh, kAny> packet_;
   BatchMemory& memory_;
   const std::size_t capacity_;
   const FastUnit* const units_;

@@ -33,18 +33,38 @@ struct Interval {
   V far;
 };
 
-// Where the ray is within the slabs of a node's children.
-template <typename D, typename V = hn::Vec<D>>
-HWY_INLINE Interval<V> slabs(D d, const FastNode& node, const BatchSlot& slot, std::size_t first) {
-  V near = hn::Set(d, slot.ray.t_min);
-  V far = hn::Set(d, slot.t);
-  const float* const rows = &node.bounds.planes[0][0][0];
+// What the slabs of nodes are tested with, in all lanes.
+template <typename D>
+struct SlabRay {
+  hn::Vec<D> inverse[3];
+  hn::Vec<D> near_offset[3];
+  hn::Vec<D> far_offset[3];
+  hn::Vec<D> t_min;
+};
+
+template <typename D>
+HWY_INLINE SlabRay<D> slab_ray(D d, const BatchRay& ray) {
+  SlabRay<D> lanes;
   for (int axis = 0; axis < 3; ++axis) {
-    const V inverse = hn::Set(d, slot.ray.inverse[axis]);
-    const V near_planes = hn::LoadU(d, rows + slot.ray.rows.near[axis] + first);
-    const V far_planes = hn::LoadU(d, rows + slot.ray.rows.far[axis] + first);
-    near = hn::Max(near, hn::MulAdd(near_planes, inverse, hn::Set(d, slot.ray.near_offset[axis])));
-    far = hn::Min(far, hn::MulAdd(far_planes, inverse, hn::Set(d, slot.ray.far_offset[axis])));
+    lanes.inverse[axis] = hn::Set(d, ray.inverse[axis]);
+    lanes.near_offset[axis] = hn::Set(d, ray.near_offset[axis]);
+    lanes.far_offset[axis] = hn::Set(d, ray.far_offset[axis]);
+  }
+  lanes.t_min = hn::Set(d, ray.t_min);
+  return lanes;
+}
+
+// Where the ray is within the slabs of a node's children, from t_min to `t`.
+template <typename D, typename V = hn::Vec<D>>
+HWY_INLINE Interval<V> slabs(D d, const FastNode& node, const SlabRay<D>& ray, const PlaneRows& rows, V t, std::size_t first) {
+  V near = ray.t_min;
+  V far = t;
+  const float* const planes = &node.bounds.planes[0][0][0];
+  for (int axis = 0; axis < 3; ++axis) {
+    const V near_planes = hn::LoadU(d, planes + rows.near[axis] + first);
+    const V far_planes = hn::LoadU(d, planes + rows.far(axis) + first);
+    near = hn::Max(near, hn::MulAdd(near_planes, ray.inverse[axis], ray.near_offset[axis]));
+    far = hn::Min(far, hn::MulAdd(far_planes, ray.inverse[axis], ray.far_offset[axis]));
   }
   return {near, far};
 }
@@ -52,22 +72,21 @@ HWY_INLINE Interval<V> slabs(D d, const FastNode& node, const BatchSlot& slot, s
 // A plane is met at  (origin + step * scale) * inverse + offset,  of which all but the step is the same for the children. That rounds once more than
 // planes in floats do, by 1 u of the reach: ray_setup-inl.h has seven to spare.
 template <typename D, typename V = hn::Vec<D>>
-HWY_INLINE Interval<V> slabs(D d, const CompressedNode& node, const BatchSlot& slot, std::size_t first) {
+HWY_INLINE Interval<V> slabs(D d, const CompressedNode& node, const SlabRay<D>& ray, const PlaneRows& rows, V t, std::size_t first) {
   const hn::RebindToUnsigned<D> du;
   const hn::RebindToSigned<D> di;
   const hn::Rebind<std::uint8_t, D> d8;
-  V near = hn::Set(d, slot.ray.t_min);
-  V far = hn::Set(d, slot.t);
-  const std::uint8_t* const rows = &node.steps[0][0][0];
+  V near = ray.t_min;
+  V far = t;
+  const std::uint8_t* const steps = &node.steps[0][0][0];
   for (int axis = 0; axis < 3; ++axis) {
-    const V inverse = hn::Set(d, slot.ray.inverse[axis]);
     const V origin = hn::Set(d, node.origin[axis]);
     const V scale = hn::BitCast(d, hn::Set(du, std::uint32_t{node.scale[axis]} << 16));
-    const V step = hn::Mul(scale, inverse);
-    const V near_steps = hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(d8, rows + slot.ray.rows.near[axis] + first)));
-    const V far_steps = hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(d8, rows + slot.ray.rows.far[axis] + first)));
-    near = hn::Max(near, hn::MulAdd(near_steps, step, hn::MulAdd(origin, inverse, hn::Set(d, slot.ray.near_offset[axis]))));
-    far = hn::Min(far, hn::MulAdd(far_steps, step, hn::MulAdd(origin, inverse, hn::Set(d, slot.ray.far_offset[axis]))));
+    const V step = hn::Mul(scale, ray.inverse[axis]);
+    const V near_steps = hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(d8, steps + rows.near[axis] + first)));
+    const V far_steps = hn::ConvertTo(d, hn::PromoteTo(di, hn::LoadU(d8, steps + rows.far(axis) + first)));
+    near = hn::Max(near, hn::MulAdd(near_steps, step, hn::MulAdd(origin, ray.inverse[axis], ray.near_offset[axis])));
+    far = hn::Min(far, hn::MulAdd(far_steps, step, hn::MulAdd(origin, ray.inverse[axis], ray.far_offset[axis])));
   }
   return {near, far};
 }
@@ -95,7 +114,7 @@ HWY_INLINE void push_in_one(D d, const Node& node, BatchSlot& slot, std::size_t 
   const std::uint32_t size = slot.stack_size;
   std::uint32_t met = 0;
   if constexpr (kAny) {
-    // Any hit needs no order: it costs more than it saves.
+    // The largest comes last; an order by distance costs more than it saves.
     met = bits_of(d, hn::Le(near, far)) & used_places(node);
     hn::StoreU(look_up(du, children, front_places(du, met)), du, stack_child + size);
   } else {
@@ -128,14 +147,16 @@ HWY_INLINE void push_one_by_one(const Node& node, BatchSlot& slot, std::size_t c
 template <bool kAny, typename Node>
 HWY_INLINE void step_through(const Node& node, BatchSlot& slot, std::size_t capacity) {
   const hn::CappedTag<float, FastNode::kWidth> d;
+  const auto ray = slab_ray(d, slot.ray);
+  const auto t = hn::Set(d, slot.t);
   if constexpr (hn::MaxLanes(d) == FastNode::kWidth) {
-    const auto [near, far] = slabs(d, node, slot, 0);
+    const auto [near, far] = slabs(d, node, ray, slot.ray.rows, t, 0);
     push_in_one<kAny>(d, node, slot, capacity, near, far);
   } else {
     HWY_ALIGN float near_of[FastNode::kWidth];
     std::uint32_t met = 0;
     for (std::size_t first = 0; first < FastNode::kWidth; first += hn::MaxLanes(d)) {
-      const auto [near, far] = slabs(d, node, slot, first);
+      const auto [near, far] = slabs(d, node, ray, slot.ray.rows, t, first);
       hn::Store(near, d, near_of + first);
       met |= bits_of(d, hn::Le(near, far)) << first;
     }

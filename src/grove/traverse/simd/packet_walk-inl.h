@@ -54,8 +54,8 @@ HWY_INLINE float plane_of(const CompressedNode& node, int axis, std::uint32_t ro
   return static_cast<float>((&node.steps[0][0][0])[row + place]) * node.scale_along(axis) + node.origin[axis];
 }
 
-// kRays rays; a bit stands for each.
-template <typename Bvh>
+// kRays rays; a bit stands for each. kAny: any hit instead of the closest.
+template <typename Bvh, bool kAny>
 class PacketWalk {
   using Node = typename Bvh::Node;
 
@@ -80,7 +80,7 @@ class PacketWalk {
   // What is behind this is no longer looked for.
   void shorten(std::uint32_t ray, float t) { rays_.t[ray] = t; }
 
-  // Visits leaves near to far, as far as near and far are the same for the rays: test_leaf(word, rays) tests the block for some, calls shorten() for those
+  // Visits leaves near to far, as far as near and far are the same for the rays, or for any hit those in large boxes first: test_leaf(word, rays) tests the block for some, calls shorten() for those
   // that it shortens and returns those that look for nothing more. hand_over(word, rays, nears) has the child visited later by these rays, from the distances
   // nears[ray], before what was handed over earlier, and returns whether it could; else the walk enters the child. The hierarchy must not be empty.
   template <typename TestLeaf, typename HandOver>
@@ -111,6 +111,9 @@ class PacketWalk {
   [[nodiscard]] bool is_worth_it() const { return tested_ < kTrial || entered_ >= kLeastMean * tested_; }
 
  private:
+  // The order of places, as nodes have orders.
+  static constexpr std::uint32_t kInPlace = 076543210;
+
   struct Entry {
     const Node* parent;
     std::uint32_t place;
@@ -169,7 +172,7 @@ class PacketWalk {
         const auto low = hn::Set(d, inverse_bounds_[axis][0]);
         const auto high = hn::Set(d, inverse_bounds_[axis][1]);
         const auto to_near = hn::Sub(row_of_planes(d, node, axis, rays_.rows.near[axis], first), center);
-        const auto to_far = hn::Sub(row_of_planes(d, node, axis, rays_.rows.far[axis], first), center);
+        const auto to_far = hn::Sub(row_of_planes(d, node, axis, rays_.rows.far(axis), first), center);
         near = hn::Max(near, hn::Add(hn::Min(hn::Mul(to_near, low), hn::Mul(to_near, high)), hn::Set(d, near_rest_[axis])));
         far = hn::Min(far, hn::Add(hn::Max(hn::Mul(to_far, low), hn::Mul(to_far, high)), hn::Set(d, far_rest_[axis])));
       }
@@ -181,7 +184,8 @@ class PacketWalk {
   HWY_INLINE void push_children(std::uint32_t word, Rays rays) {
     const Node& node = place_of<Node>(units_, word);
     const std::uint32_t met = met_by_any(node);
-    const std::uint32_t order = node.order_for(rays_.rows.octant);
+    // Far to near; for any hit small to large, as they are.
+    const std::uint32_t order = kAny ? kInPlace : node.order_for(rays_.rows.octant);
     for (int k = 0; k < FastNode::kWidth; ++k) {
       const std::uint32_t place = order >> (3 * k) & 7U;
       const auto child = std::bit_cast<std::uint32_t>(node.child[place]);
@@ -202,7 +206,7 @@ class PacketWalk {
     float planes[3][2];
     for (int axis = 0; axis < 3; ++axis) {
       planes[axis][0] = plane_of(*entry.parent, axis, rays_.rows.near[axis], entry.place);
-      planes[axis][1] = plane_of(*entry.parent, axis, rays_.rows.far[axis], entry.place);
+      planes[axis][1] = plane_of(*entry.parent, axis, rays_.rows.far(axis), entry.place);
     }
     for (std::size_t i = 0; i < kRays; i += hn::MaxLanes(d)) {
       auto near = hn::Load(d, rays_.t_min() + i);
