@@ -110,6 +110,27 @@ struct RayTrianglePairs {
   F shear[2];
 };
 
+// The ray of a block's triangles, in all lanes.
+template <typename F>
+HWY_INLINE void set_ray(const BatchRay& ray, RayTrianglePairs<F>& pairs) {
+  const hn::DFromV<F> d;
+  for (int axis = 0; axis < 3; ++axis) {
+    pairs.minus_origin[axis] = hn::Set(d, ray.minus_origin_k[axis]);
+    pairs.direction[axis] = hn::Set(d, ray.direction_k[axis]);
+  }
+  pairs.shear[0] = hn::Set(d, ray.shear_x);
+  pairs.shear[1] = hn::Set(d, ray.shear_y);
+}
+
+// The block's triangles from number `first` on.
+template <typename F>
+HWY_INLINE void set_corners(const RayAxes& axes, const TriangleBlock& block, std::size_t first, RayTrianglePairs<F>& pairs) {
+  const hn::DFromV<F> d;
+  const std::uint32_t along[3] = {axes.kx, axes.ky, axes.kz};
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 3; ++i) pairs.corner[axis][i] = hn::LoadU(d, block.corners[along[axis]][i] + first);
+}
+
 // Where they meet.
 template <typename F>
 struct MeasuredHits {
@@ -155,7 +176,8 @@ HWY_INLINE MeasuredHits<F> measure(DD dd, const RayTrianglePairs<F>& pairs) {
   const D first_corner[3] = {corner[0][0], corner[1][0], corner[2][0]};
   const D normal[3] = {hn::Sub(hn::Mul(a[1], b[2]), hn::Mul(b[1], a[2])), hn::Sub(hn::Mul(a[2], b[0]), hn::Mul(b[2], a[0])),
                        hn::Sub(hn::Mul(a[0], b[1]), hn::Mul(b[0], a[1]))};
-  const D plane_depth = hn::Mul(hn::Div(dot3(normal, first_corner), dot3(normal, direction)), direction[2]);
+  const D plane_t = hn::Div(dot3(normal, first_corner), dot3(normal, direction));
+  const D plane_depth = hn::Mul(plane_t, direction[2]);
 
   D exact[3][3];
   for (int i = 0; i < 3; ++i) {
@@ -165,35 +187,44 @@ HWY_INLINE MeasuredHits<F> measure(DD dd, const RayTrianglePairs<F>& pairs) {
   }
   const auto weight = [&](int i, int j) { return hn::Sub(hn::Mul(exact[0][i], exact[1][j]), hn::Mul(exact[0][j], exact[1][i])); };
   const D edges[3] = {weight(2, 1), weight(0, 2), weight(1, 0)};
-  const D edge_depth = hn::Div(dot3(edges, exact[2]), hn::Add(hn::Add(edges[0], edges[1]), edges[2]));
-  const auto agree = hn::Le(hn::Abs(hn::Sub(plane_depth, edge_depth)), hn::Mul(hn::Set(dd, watertight::kDepthTolerance), largest));
+  const D sum = hn::Add(hn::Add(edges[0], edges[1]), edges[2]);
+  const D tolerance = hn::Mul(hn::Set(dd, watertight::kDepthTolerance), largest);
+  const auto agree = hn::Le(hn::Abs(hn::Sub(hn::Mul(plane_depth, sum), dot3(edges, exact[2]))), hn::Mul(tolerance, hn::Abs(sum)));
 
-  hits.t = hn::DemoteTo(df, hn::Div(plane_depth, direction[2]));
+  hits.t = hn::DemoteTo(df, plane_t);
   hits.known = bits_of(df, is_regular) & bits_of(dd, agree);
   return hits;
 }
 
-// Tests all candidates: those whose edge functions do not differ in sign. Writes distances, weights of the corners, and which are known; the others are
-// left to the test of single triangles.
+// Tests all candidates: those whose edge functions do not differ in sign.
 HWY_INLINE void test_candidates(HitCandidates& candidates) {
   candidates.fill_up();
   const hn::CappedTag<double, HitCandidates::kGroup> dd;
   const hn::Rebind<float, decltype(dd)> df;
-  candidates.known = 0;
+  const hn::RebindToUnsigned<decltype(df)> du;
+  using F = hn::Vec<decltype(df)>;
+  std::uint64_t valid = 0;
+  std::uint64_t known = 0;
   for (std::size_t first = 0; first < candidates.count; first += hn::MaxLanes(dd)) {
-    const auto load = [&](const float* lanes) { return hn::LoadU(df, lanes + first); };
-    RayTrianglePairs<hn::Vec<decltype(df)>> pairs;
-    for (int axis = 0; axis < 3; ++axis) {
-      for (int i = 0; i < 3; ++i) pairs.corner[axis][i] = load(candidates.corner[axis][i]);
-      pairs.minus_origin[axis] = load(candidates.minus_origin[axis]);
-      pairs.direction[axis] = load(candidates.direction[axis]);
-    }
-    for (int i = 0; i < 2; ++i) pairs.shear[i] = load(candidates.shear[i]);
-    const auto hits = measure(dd, pairs);
-    hn::StoreU(hits.t, df, candidates.t + first);
-    for (int i = 0; i < 3; ++i) hn::StoreU(hits.weights[i], df, candidates.weight[i] + first);
-    candidates.known |= std::uint64_t{hits.known} << first;
+    RayTrianglePairs<F> pairs;
+    for (int axis = 0; axis < 3; ++axis)
+      for (int i = 0; i < 3; ++i) pairs.corner[axis][i] = hn::LoadU(df, candidates.corner[axis][i] + first);
+    hn::LoadInterleaved4(df, candidates.minus_origin[first], pairs.minus_origin[0], pairs.minus_origin[1], pairs.minus_origin[2],
+                         pairs.shear[0]);
+    hn::LoadInterleaved4(df, candidates.direction[first], pairs.direction[0], pairs.direction[1], pairs.direction[2], pairs.shear[1]);
+    const MeasuredHits<F> hits = measure(dd, pairs);
+    const F sum = hn::Add(hn::Add(hits.weights[0], hits.weights[1]), hits.weights[2]);
+    const F primitive = hn::BitCast(df, hn::LoadU(du, candidates.primitive + first));
+    hn::StoreInterleaved4(hits.t, primitive, hn::Div(hits.weights[1], sum), hn::Div(hits.weights[2], sum), df, candidates.hit[first]);
+    const auto in_range = hn::And(hn::Ge(hits.t, hn::LoadU(df, candidates.t_min + first)),
+                                  hn::Lt(hits.t, hn::Set(df, std::numeric_limits<float>::infinity())));
+    valid |= std::uint64_t{bits_of(df, in_range)} << first;
+    known |= std::uint64_t{hits.known} << first;
   }
+  const std::uint64_t all = candidates.count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << candidates.count) - 1;
+  static_assert(HitCandidates::kMost == 64);
+  candidates.valid = valid & known & all;
+  candidates.unknown = ~known & all;
 }
 
 // Measures a block's triangles for a ray.
@@ -206,17 +237,10 @@ struct MeasuredBlock {
 HWY_INLINE void measure_block(const BatchRay& ray, const TriangleBlock& block, MeasuredBlock& measured) {
   const hn::CappedTag<double, TriangleBlock::kWidth> dd;
   const hn::Rebind<float, decltype(dd)> df;
-  const std::uint32_t axes[3] = {ray.axes.kx, ray.axes.ky, ray.axes.kz};
   RayTrianglePairs<hn::Vec<decltype(df)>> pairs;
-  for (int axis = 0; axis < 3; ++axis) {
-    pairs.minus_origin[axis] = hn::Set(df, ray.minus_origin_k[axis]);
-    pairs.direction[axis] = hn::Set(df, ray.direction_k[axis]);
-  }
-  pairs.shear[0] = hn::Set(df, ray.shear_x);
-  pairs.shear[1] = hn::Set(df, ray.shear_y);
+  set_ray(ray, pairs);
   for (std::size_t first = 0; first < TriangleBlock::kWidth; first += hn::MaxLanes(dd)) {
-    for (int axis = 0; axis < 3; ++axis)
-      for (int i = 0; i < 3; ++i) pairs.corner[axis][i] = hn::LoadU(df, block.corners[axes[axis]][i] + first);
+    set_corners(ray.axes, block, first, pairs);
     const auto hits = measure(dd, pairs);
     hn::StoreU(hits.t, df, measured.t + first);
     for (int i = 0; i < 3; ++i) hn::StoreU(hits.weights[i], df, measured.weights[i] + first);

@@ -93,14 +93,14 @@ HWY_INLINE Interval<V> slabs(D d, const CompressedNode& node, const SlabRay<D>& 
 
 // Which places of a node are used, as they are and as its orders have them. A whole box tells by itself; one on a grid does not where the grid is
 // finer than what rays are padded by.
-HWY_INLINE std::uint32_t used_places(const FastNode& /*node*/) {
-  return 0xffU;
+HWY_INLINE AllLanes used_places(const FastNode& /*node*/) {
+  return {};
 }
 HWY_INLINE std::uint32_t used_places(const CompressedNode& node) {
   return node.used;
 }
-HWY_INLINE std::uint32_t used_places_in_order(const FastNode& /*node*/) {
-  return 0xffU;
+HWY_INLINE AllLanes used_places_in_order(const FastNode& /*node*/) {
+  return {};
 }
 HWY_INLINE std::uint32_t used_places_in_order(const CompressedNode& node) {
   return node.used_in_order;
@@ -115,16 +115,16 @@ HWY_INLINE void push_in_one(D d, const Node& node, BatchSlot& slot, std::size_t 
   std::uint32_t met = 0;
   if constexpr (kAny) {
     // The largest comes last; an order by distance costs more than it saves.
-    met = bits_of(d, hn::Le(near, far)) & used_places(node);
-    hn::StoreU(look_up(du, children, front_places(du, met)), du, stack_child + size);
+    const LaneSet set(d, hn::Le(near, far), used_places(node));
+    met = set.bits();
+    hn::StoreU(set.to_front(du, children), du, stack_child + size);
   } else {
     const auto order = hn::Set(du, node.order_for(slot.ray.rows.octant)) >> hn::Mul(hn::Iota(du, 0), hn::Set(du, 3));
-    // The sign of the difference goes through the same order as the children. Unused places have a difference of minus infinity.
-    const V slack = look_up(d, hn::Sub(far, near), order);
-    met = ~bits_of(d, hn::Lt(slack, hn::Zero(d))) & used_places_in_order(node);
-    const auto places = look_up(du, order, front_places(du, met));
-    hn::StoreU(look_up(d, near, places), d, slot.stack_t() + size);
-    hn::StoreU(look_up(du, children, places), du, stack_child + size);
+    const V near_in_order = look_up(d, near, order);
+    const LaneSet set(d, hn::Le(near_in_order, look_up(d, far, order)), used_places_in_order(node));
+    met = set.bits();
+    hn::StoreU(set.to_front(d, near_in_order), d, slot.stack_t() + size);
+    hn::StoreU(set.to_front(du, look_up(du, children, order)), du, stack_child + size);
   }
   slot.stack_size = size + static_cast<std::uint32_t>(std::popcount(met));
 }
@@ -160,7 +160,7 @@ HWY_INLINE void step_through(const Node& node, BatchSlot& slot, std::size_t capa
       hn::Store(near, d, near_of + first);
       met |= bits_of(d, hn::Le(near, far)) << first;
     }
-    push_one_by_one(node, slot, capacity, near_of, met & used_places(node));
+    push_one_by_one(node, slot, capacity, near_of, used_places(node) & met);
   }
 }
 
@@ -175,12 +175,11 @@ HWY_INLINE void drop_what_is_farther(BatchSlot& slot, std::size_t capacity) {
     const hn::RebindToUnsigned<decltype(d)> du;
     for (std::uint32_t i = 0; i < size; i += kSlack) {
       const auto t = hn::LoadU(d, stack_t + i);
+      const LaneSet near(d, hn::And(hn::Le(t, hn::Set(d, slot.t)), hn::FirstN(d, size - i)), AllLanes());
       const auto child = hn::LoadU(du, stack_child + i);
-      const std::uint32_t near = bits_of(d, hn::And(hn::Le(t, hn::Set(d, slot.t)), hn::FirstN(d, size - i)));
-      const auto places = front_places(du, near);
-      hn::StoreU(look_up(d, t, places), d, stack_t + kept);
-      hn::StoreU(look_up(du, child, places), du, stack_child + kept);
-      kept += static_cast<std::uint32_t>(std::popcount(near));
+      hn::StoreU(near.to_front(d, t), d, stack_t + kept);
+      hn::StoreU(near.to_front(du, child), du, stack_child + kept);
+      kept += static_cast<std::uint32_t>(std::popcount(near.bits()));
     }
   } else {
     for (std::uint32_t i = 0; i < size; ++i) {

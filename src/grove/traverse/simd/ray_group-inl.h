@@ -43,33 +43,31 @@ class RayGroup {
   HWY_INLINE void copy(std::size_t i, BatchRay& ray) const { setups_[i / Setup::kCount].copy(i % Setup::kCount, ray); }
   [[nodiscard]] const Setup& setup(std::size_t number) const { return setups_[number]; }
 
-  // Whether the rays may go side by side: the group is full, the kernel can take all of them, their directions have the same signs and are nearly the same, and
-  // they begin near each other, as those of a few pixels do.
-  [[nodiscard]] bool is_packet() const {
-    if (count_ != kMost) return false;
-    for (const Setup& setup : setups_)
-      if (!setup.is_regular() || !setup.has_one_octant() || setup.octant(0) != setups_[0].octant(0)) return false;
-    const Ray& first = rays_[0];
-    const Vec3 most_turn(kMostSpread * longest(first.direction));
+  // Whether `count` rays from number `first` on, both multiples of Setup::kCount and of 4, may go side by side: they are there, the kernel can take all of them,
+  // their directions have the same signs and are nearly the same, triangles are tested along the same axes for all, and they begin near each other, as those
+  // of a few pixels do.
+  [[nodiscard]] bool is_packet(std::size_t first, std::size_t count) const {
+    if (first + count > count_) return false;
+    const Setup& front = setups_[first / Setup::kCount];
+    for (std::size_t i = first; i < first + count; i += Setup::kCount) {
+      const Setup& setup = setups_[i / Setup::kCount];
+      if (!setup.is_regular() || !setup.has_one_octant() || setup.octant(0) != front.octant(0)) return false;
+      if (!setup.has_one_kind_of_axes() || setup.axes(0) != front.axes(0)) return false;
+    }
+    const Ray& ray = rays_[first];
+    const Vec3 most_turn(kMostSpread * longest(ray.direction));
     const Vec3 most_way(kMostSpread * most_way_);
     // Some stand for all: whoever is elsewhere costs time, not hits.
-    for (std::size_t i = kMost / 4 - 1; i < kMost; i += kMost / 4) {
-      if (glm::any(glm::greaterThan(glm::abs(rays_[i].direction - first.direction), most_turn))) return false;
-      if (glm::any(glm::greaterThan(glm::abs(rays_[i].origin - first.origin), most_way))) return false;
+    for (std::size_t i = first + count / 4 - 1; i < first + count; i += count / 4) {
+      if (glm::any(glm::greaterThan(glm::abs(rays_[i].direction - ray.direction), most_turn))) return false;
+      if (glm::any(glm::greaterThan(glm::abs(rays_[i].origin - ray.origin), most_way))) return false;
     }
-    return true;
-  }
-
-  // Whether triangles are tested along the same axes for all rays of a full group.
-  [[nodiscard]] bool has_one_kind_of_axes() const {
-    for (const Setup& setup : setups_)
-      if (!setup.has_one_kind_of_axes() || setup.axes(0) != setups_[0].axes(0)) return false;
     return true;
   }
 
  private:
   // By how much of the longest component of the first, and of the scene, rays may differ. Measured where packets begin to gain.
-  static constexpr float kMostSpread = 1.0F / 48.0F;
+  static constexpr float kMostSpread = 1.0F / 12.0F;
 
   static float longest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 

@@ -96,7 +96,7 @@ class RaySetup {
   // What BatchRay has, in rows, of which ray 0 has place `first`.
   template <std::size_t kLength>
   HWY_INLINE void store_rows(float (*inverse)[kLength], float (*near_offset)[kLength], float (*far_offset)[kLength],
-                             float (*minus_origin_k)[kLength], float* shear_y, std::size_t first) const {
+                             float (*minus_origin_k)[kLength], float (*direction_k)[kLength], std::size_t first) const {
     const D d;
     V v[4];
     const auto store = [&](const float* four, float(*rows)[kLength]) {
@@ -107,8 +107,7 @@ class RaySetup {
     store(near_offset_, near_offset);
     store(far_offset_, far_offset);
     store(minus_origin_k_, minus_origin_k);
-    hn::LoadInterleaved4(d, direction_k_, v[0], v[1], v[2], v[3]);
-    hn::StoreU(v[3], d, shear_y + first);
+    store(direction_k_, direction_k);
   }
 
   HWY_INLINE void copy(std::size_t i, BatchRay& ray) const {

@@ -110,7 +110,7 @@ class SingleRay {
       if constexpr (!kAny) hn::Store(near, d, near_of + first);
       met |= bits_of(d, hn::Le(near, far)) << first;
     }
-    met &= used_places(node);
+    met = used_places(node) & met;
     if (met == 0) return false;
     std::uint32_t place = static_cast<std::uint32_t>(std::countr_zero(met));
     met &= met - 1;
