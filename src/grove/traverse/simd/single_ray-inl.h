@@ -127,13 +127,20 @@ class SingleRay {
         std::swap(place, other);
       }
       memory_.stack_child[slot.stack_size++] = std::bit_cast<std::uint32_t>(node.child[other]);
+      prefetch(std::bit_cast<std::uint32_t>(node.child[other]));
       word = std::bit_cast<std::uint32_t>(node.child[place]);
     } else {
+      for (std::uint32_t left = met; left != 0; left &= left - 1) prefetch(std::bit_cast<std::uint32_t>(node.child[std::countr_zero(left)]));
       push_all(node, near_of, met | 1U << place);
       word = memory_.stack_child[--slot.stack_size];
     }
     if constexpr (kCounts) companion_->stack_depth = std::max(companion_->stack_depth, slot.stack_size);
     return true;
+  }
+
+  HWY_INLINE void prefetch(std::uint32_t word) const {
+    const char* const line = &place_of<char>(units_, word);
+    for (std::size_t offset = 0; offset < sizeof(Node); offset += 64) __builtin_prefetch(line + offset);
   }
 
   // In the node's order for the ray, the nearest last; or as they are, the largest last.
