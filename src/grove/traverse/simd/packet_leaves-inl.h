@@ -76,11 +76,11 @@ class PacketLeaves {
   HWY_INLINE void set_rays(std::size_t lane, RayTrianglePairs<F>& pairs) const {
     const hn::DFromV<F> d;
     for (int axis = 0; axis < 3; ++axis) {
-      pairs.minus_origin[axis] = hn::LoadU(d, packet_.minus_origin_k[axis] + lane);
-      pairs.direction[axis] = hn::LoadU(d, packet_.direction_k[axis] + lane);
+      pairs.minus_origin[axis] = hn::LoadU(d, packet_.minus_origin_k(axis) + lane);
+      pairs.direction[axis] = hn::LoadU(d, packet_.direction_k(axis) + lane);
     }
-    pairs.shear[0] = hn::LoadU(d, packet_.minus_origin_k[3] + lane);
-    pairs.shear[1] = hn::LoadU(d, packet_.direction_k[3] + lane);
+    pairs.shear[0] = hn::LoadU(d, packet_.shear_x() + lane);
+    pairs.shear[1] = hn::LoadU(d, packet_.shear_y() + lane);
   }
 
   // The watertight test for rays that may hit a triangle. Returns those whose hits are new.
@@ -118,7 +118,7 @@ class PacketLeaves {
       const Rays some = rays & group<hn::MaxLanes(d)>(lane);
       if (some == 0) continue;
       set_rays(lane, pairs);
-      const auto hits = test_pairs(d, pairs, hn::Load(d, packet_.t_min() + lane), hn::Load(d, packet_.t + lane));
+      const auto hits = test_pairs(d, pairs, hn::LoadU(d, packet_.t_min() + lane), hn::Load(d, packet_.t + lane));
       const Rays inside = Rays{bits_of(d, hits.mask)} << lane;
       hit |= take(d, lane, some & inside, hits.t, hits.u, hits.v, block.primitive[place]);
     }

@@ -123,14 +123,14 @@ class PacketWalk {
 
   HWY_INLINE float least(const float* lanes) const {
     const hn::CappedTag<float, 16> d;
-    auto v = hn::Load(d, lanes);
-    for (std::size_t i = hn::MaxLanes(d); i < rays_.count; i += hn::MaxLanes(d)) v = hn::Min(v, hn::Load(d, lanes + i));
+    auto v = hn::LoadU(d, lanes);
+    for (std::size_t i = hn::MaxLanes(d); i < rays_.count; i += hn::MaxLanes(d)) v = hn::Min(v, hn::LoadU(d, lanes + i));
     return hn::GetLane(hn::MinOfLanes(d, v));
   }
   HWY_INLINE float largest(const float* lanes) const {
     const hn::CappedTag<float, 16> d;
-    auto v = hn::Load(d, lanes);
-    for (std::size_t i = hn::MaxLanes(d); i < rays_.count; i += hn::MaxLanes(d)) v = hn::Max(v, hn::Load(d, lanes + i));
+    auto v = hn::LoadU(d, lanes);
+    for (std::size_t i = hn::MaxLanes(d); i < rays_.count; i += hn::MaxLanes(d)) v = hn::Max(v, hn::LoadU(d, lanes + i));
     return hn::GetLane(hn::MaxOfLanes(d, v));
   }
 
@@ -139,15 +139,15 @@ class PacketWalk {
   HWY_INLINE void bound(const Vec3& c) {
     for (int axis = 0; axis < 3; ++axis) {
       center_[axis] = c[axis];
-      inverse_bounds_[axis][0] = least(rays_.inverse[axis]);
-      inverse_bounds_[axis][1] = largest(rays_.inverse[axis]);
+      inverse_bounds_[axis][0] = least(rays_.inverse(axis));
+      inverse_bounds_[axis][1] = largest(rays_.inverse(axis));
       HWY_ALIGN float near_rest[kRays];
       HWY_ALIGN float far_rest[kRays];
       const hn::CappedTag<float, 16> d;
       for (std::size_t i = 0; i < rays_.count; i += hn::MaxLanes(d)) {
-        const auto inverse = hn::Load(d, rays_.inverse[axis] + i);
-        hn::Store(hn::MulAdd(hn::Set(d, c[axis]), inverse, hn::Load(d, rays_.near_offset[axis] + i)), d, near_rest + i);
-        hn::Store(hn::MulAdd(hn::Set(d, c[axis]), inverse, hn::Load(d, rays_.far_offset[axis] + i)), d, far_rest + i);
+        const auto inverse = hn::LoadU(d, rays_.inverse(axis) + i);
+        hn::Store(hn::MulAdd(hn::Set(d, c[axis]), inverse, hn::LoadU(d, rays_.near_offset(axis) + i)), d, near_rest + i);
+        hn::Store(hn::MulAdd(hn::Set(d, c[axis]), inverse, hn::LoadU(d, rays_.far_offset(axis) + i)), d, far_rest + i);
       }
       // Products and sums round four times by 2^-24 of what they are, which is at most the way to the farthest plane, and c.
       const float reach = std::max(std::abs(bounds_.lower[axis] - c[axis]), std::abs(bounds_.upper[axis] - c[axis])) + std::abs(c[axis]);
@@ -210,12 +210,12 @@ class PacketWalk {
     }
     for (std::size_t i = 0; i < rays_.count; i += hn::MaxLanes(d)) {
       if ((some >> i & ((Rays{1} << hn::MaxLanes(d)) - 1)) == 0) continue;
-      auto near = hn::Load(d, rays_.t_min() + i);
+      auto near = hn::LoadU(d, rays_.t_min() + i);
       auto far = hn::Load(d, rays_.t + i);
       for (int axis = 0; axis < 3; ++axis) {
-        const auto inverse = hn::Load(d, rays_.inverse[axis] + i);
-        near = hn::Max(near, hn::MulAdd(hn::Set(d, planes[axis][0]), inverse, hn::Load(d, rays_.near_offset[axis] + i)));
-        far = hn::Min(far, hn::MulAdd(hn::Set(d, planes[axis][1]), inverse, hn::Load(d, rays_.far_offset[axis] + i)));
+        const auto inverse = hn::LoadU(d, rays_.inverse(axis) + i);
+        near = hn::Max(near, hn::MulAdd(hn::Set(d, planes[axis][0]), inverse, hn::LoadU(d, rays_.near_offset(axis) + i)));
+        far = hn::Min(far, hn::MulAdd(hn::Set(d, planes[axis][1]), inverse, hn::LoadU(d, rays_.far_offset(axis) + i)));
       }
       hn::Store(near, d, near_ + i);
       met |= Rays{bits_of(d, hn::Le(near, far))} << i;

@@ -49,11 +49,11 @@ class SingleRay {
   HWY_INLINE static bool trace(const FastScene<Bvh>& scene, const Ray& ray, Hit& hit, Companion* companion) {
     const Bvh& bvh = scene.bvh;
     if (bvh.depth > kMostDepth) return false;
-    RaySetup<4> setup(bvh.bounds);
-    setup.prepare(ray);
-    if (!setup.is_regular(0)) return false;
+    const RaySetup<4> setup(bvh.bounds);
+    RaySetup<4>::One one;
+    if (!setup.prepare(ray, one)) return false;
     SingleRay single(scene, hit, companion);
-    setup.copy(0, single.memory_.slot.ray);
+    one.copy(single.memory_.slot.ray);
     single.run();
     return true;
   }
@@ -130,7 +130,8 @@ class SingleRay {
       prefetch(std::bit_cast<std::uint32_t>(node.child[other]));
       word = std::bit_cast<std::uint32_t>(node.child[place]);
     } else {
-      for (std::uint32_t left = met; left != 0; left &= left - 1) prefetch(std::bit_cast<std::uint32_t>(node.child[std::countr_zero(left)]));
+      for (std::uint32_t left = met; left != 0; left &= left - 1)
+        prefetch(std::bit_cast<std::uint32_t>(node.child[std::countr_zero(left)]));
       push_all(node, near_of, met | 1U << place);
       word = memory_.stack_child[--slot.stack_size];
     }
