@@ -75,6 +75,8 @@ class Lister {
   }
 
   void list_piece(const Root& root, PlannedPiece& piece) const {
+    // Mostly a node takes the place of four.
+    piece.nodes.reserve((end_of_subtree(bvh_, root.node) - root.node) / 3 + 1);
     std::vector<Pending> stack{{root, kNoParent, 0}};
     while (!stack.empty()) {
       const Pending top = stack.back();

@@ -19,8 +19,8 @@ struct ReinsertionSettings {
   std::uint32_t rounds = 16;
   /// In a round, one subtree in so many is tried.
   std::uint32_t stride = 4;
-  /// Where not 0: instead, about this share of the subtrees is tried in each round, those whose boxes have the largest areas. Most of what there is to gain is
-  /// there (as the batches of Bittner, Hapala, Havran, "Fast Insertion-Based Optimization of Bounding Volume Hierarchies", 2013, have it).
+  /// Where not 0: instead, about this share of the subtrees is tried in each round, those whose boxes have the largest areas. A good part of what there is
+  /// to gain is there.
   double largest = 0.0;
   /// Rounds end when a full turn over all subtrees, or one round over the largest, has lowered the sum of areas by less than this share.
   double least_gain = 0.002;
