@@ -90,7 +90,7 @@ class Packing {
     std::uint32_t references = 0;
     std::size_t block = piece.first_block;
     for (std::size_t number = 0; number < piece.nodes.size(); ++number) {
-      const PlannedNode& planned = piece.nodes[number];
+      const PlannedNode planned = by_area(piece.nodes[number]);
       Node& node = result_.nodes()[piece.first_node + number];
       pack_boxes(planned, node);
       for (int i = 0; i < Node::kWidth; ++i) {
@@ -107,6 +107,30 @@ class Packing {
       }
     }
     return references;
+  }
+
+  // The same node with the smallest box in the first place and the largest in the last.
+  [[nodiscard]] PlannedNode by_area(const PlannedNode& node) const {
+    struct Place {
+      float area;
+      int place;
+    };
+    Place places[8];
+    int count = 0;
+    for (; count < Node::kWidth && node.slot[count] != PlannedNode::kNoSlot; ++count) {
+      const std::uint32_t slot = node.slot[count];
+      const Place next = {binary_.nodes[slot / 2].child_box(static_cast<int>(slot % 2)).half_area(), count};
+      int place = count;
+      for (; place > 0 && places[place - 1].area > next.area; --place) places[place] = places[place - 1];
+      places[place] = next;
+    }
+    PlannedNode sorted = node;
+    for (int i = 0; i < count; ++i) {
+      sorted.slot[i] = node.slot[places[i].place];
+      sorted.first[i] = node.first[places[i].place];
+      sorted.count[i] = node.count[places[i].place];
+    }
+    return sorted;
   }
 
   void pack_boxes(const PlannedNode& planned, Node& node) const {
