@@ -96,6 +96,27 @@ TEST(MortonOrder, LooksCloserWhereCentresAreCrowded) {
   EXPECT_LT(even.codes.back(), std::uint64_t{1} << 36);
 }
 
+// Many to each cell of the coarse grid, with borders of tasks between them.
+TEST(MortonOrder, OfCrowdsIsThatOfFineCodes) {
+  std::vector<Box> boxes;
+  Random random(6);
+  constexpr int kCount = 40000;
+  boxes.reserve(kCount + 2);
+  for (int i = 0; i < kCount; ++i) boxes.push_back(cube(4e-3F * testing::random_point(random), 1e-6F));
+  boxes.push_back(cube(Vec3(1.0F), 1e-6F));
+  boxes.push_back(cube(Vec3(-1.0F), 1e-6F));
+  const ReferenceList list = testing::references_to(boxes);
+  const MortonOrder one = testing::with_threads(1, [&] { return sort_by_morton_code(list); });
+  ASSERT_GE(one.codes.back(), std::uint64_t{7} << 60) << "not a code of 63 bits";
+  EXPECT_TRUE(std::is_sorted(one.codes.begin(), one.codes.end()));
+  std::vector<bool> is_there(boxes.size(), false);
+  for (const std::uint32_t index : one.indices) is_there[index] = true;
+  EXPECT_EQ(std::count(is_there.begin(), is_there.end(), true), std::ssize(boxes));
+  const MortonOrder many = testing::with_threads(3, [&] { return sort_by_morton_code(list); });
+  EXPECT_EQ(many.codes, one.codes);
+  EXPECT_EQ(many.indices, one.indices);
+}
+
 TEST(MortonOrder, DoesNotDependOnTheThreads) {
   const ReferenceList list = list_references(testing::pebbles(100000, 0.01F, 6));
   const MortonOrder one = testing::with_threads(1, [&] { return sort_by_morton_code(list); });

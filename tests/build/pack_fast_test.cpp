@@ -8,25 +8,26 @@
 
 #include "build/sample_meshes.h"
 #include "build/threads.h"
-#include "grove/build/passes/collapse.h"
 #include "grove/build/top_down.h"
 
 namespace grove {
 namespace {
 
-WideBvh<8> wide(const TriangleMesh& mesh) {
+CollapseSettings by_blocks() {
   CollapseSettings settings;
-  settings.arity = 8;
   settings.leaf_size = TriangleBlock::kWidth;
   settings.cost.block_size = TriangleBlock::kWidth;
-  return widen<8>(build_top_down(list_references(mesh), {.leaf_size = 1}), settings);
+  return settings;
+}
+
+Bvh2 binary(const TriangleMesh& mesh) {
+  return build_top_down(list_references(mesh), {.leaf_size = 1});
 }
 
 TEST(PackFast, KeepsEveryTriangleInABlockOfItsLeaf) {
   for (const std::size_t count : {0U, 1U, 2U, 4U, 5U, 100U, 20000U}) {
     const TriangleMesh mesh = testing::pebbles(count, 0.05F, count);
-    const WideBvh<8> from = wide(mesh);
-    const FastBvh bvh = pack_fast<FastBvh>(from, mesh);
+    const FastBvh bvh = pack_fast<FastBvh>(binary(mesh), mesh, by_blocks());
     ASSERT_EQ(bvh.validate(count), "") << count;
     ASSERT_EQ(bvh.references, count);
     std::vector<std::uint32_t> ids;
@@ -50,7 +51,8 @@ TEST(PackFast, KeepsEveryTriangleInABlockOfItsLeaf) {
 }
 
 TEST(PackFast, OrdersChildrenFromFarToNear) {
-  const FastBvh bvh = pack_fast<FastBvh>(wide(testing::pebbles(3000, 0.05F, 2)), testing::pebbles(3000, 0.05F, 2));
+  const TriangleMesh mesh = testing::pebbles(3000, 0.05F, 2);
+  const FastBvh bvh = pack_fast<FastBvh>(binary(mesh), mesh, by_blocks());
   for (const FastNode& node : bvh.nodes()) {
     for (unsigned octant = 0; octant < 8; ++octant) {
       float last = std::numeric_limits<float>::infinity();
@@ -75,9 +77,9 @@ TEST(PackFast, CompressedNodesHoldTheirChildren) {
     vertices.reserve(unit.vertices().size());
     for (const Vec3& vertex : unit.vertices()) vertices.push_back(vertex * size + Vec3(size, 0.0F, -3.0F * size));
     const TriangleMesh mesh(vertices, {unit.triangles().begin(), unit.triangles().end()});
-    const WideBvh<8> from = wide(mesh);
-    const auto full = pack_fast<FastBvh>(from, mesh);
-    const auto compressed = pack_fast<CompressedFastBvh>(from, mesh);
+    const Bvh2 from = binary(mesh);
+    const auto full = pack_fast<FastBvh>(from, mesh, by_blocks());
+    const auto compressed = pack_fast<CompressedFastBvh>(from, mesh, by_blocks());
     ASSERT_EQ(compressed.validate(mesh.size(), mesh.vertices()), "");
     ASSERT_EQ(compressed.nodes().size(), full.nodes().size());
     EXPECT_EQ(compressed.references, full.references);
@@ -105,10 +107,10 @@ TEST(PackFast, CompressedNodesHoldTheirChildren) {
 
 TEST(PackFast, DoesNotDependOnTheThreads) {
   const TriangleMesh mesh = testing::pebbles(50000, 0.01F, 3);
-  const WideBvh<8> from = wide(mesh);
-  const FastBvh one = testing::with_threads(1, [&] { return pack_fast<FastBvh>(from, mesh); });
+  const Bvh2 from = binary(mesh);
+  const FastBvh one = testing::with_threads(1, [&] { return pack_fast<FastBvh>(from, mesh, by_blocks()); });
   for (const int threads : {2, 3, 8}) {
-    const FastBvh many = testing::with_threads(threads, [&] { return pack_fast<FastBvh>(from, mesh); });
+    const FastBvh many = testing::with_threads(threads, [&] { return pack_fast<FastBvh>(from, mesh, by_blocks()); });
     ASSERT_EQ(many.nodes().size(), one.nodes().size());
     ASSERT_EQ(many.blocks().size(), one.blocks().size());
     EXPECT_EQ(std::memcmp(many.nodes().data(), one.nodes().data(), one.nodes().size() * sizeof(FastNode)), 0);
@@ -119,14 +121,12 @@ TEST(PackFast, DoesNotDependOnTheThreads) {
 // A block that takes the same time however full it is is filled where it can be.
 TEST(PackFast, LeavesAreFullerWhereABlockTakesTheSameTime) {
   const TriangleMesh mesh = testing::pebbles(20000, 0.05F, 4);
-  const Bvh2 binary = build_top_down(list_references(mesh), {.leaf_size = 1});
-  CollapseSettings settings;
-  settings.arity = 8;
-  settings.leaf_size = TriangleBlock::kWidth;
+  const Bvh2 from = binary(mesh);
+  CollapseSettings settings = by_blocks();
   settings.cost.intersection = 0.25;
-  const std::size_t one_by_one = pack_fast<FastBvh>(widen<8>(binary, settings), mesh).blocks().size();
-  settings.cost.block_size = TriangleBlock::kWidth;
-  EXPECT_LT(pack_fast<FastBvh>(widen<8>(binary, settings), mesh).blocks().size(), one_by_one);
+  const std::size_t filled = pack_fast<FastBvh>(from, mesh, settings).blocks().size();
+  settings.cost.block_size = 1;
+  EXPECT_LT(filled, pack_fast<FastBvh>(from, mesh, settings).blocks().size());
 }
 
 }  // namespace

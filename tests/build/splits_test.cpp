@@ -179,6 +179,17 @@ TEST(SpatialSplits, KeepToTheirBudget) {
   }
 }
 
+// No two boxes overlap by more than the box around both.
+TEST(SpatialSplits, AreTriedOnlyWhereSidesOverlapEnough) {
+  const TriangleMesh mesh = slivers(3000, 11);
+  const auto references = [&](double least_overlap) {
+    return build_with_spatial_splits(mesh, {.least_overlap_of_range = least_overlap}).references.size();
+  };
+  EXPECT_EQ(references(1.0), mesh.size());
+  EXPECT_GT(references(0.2), mesh.size());
+  EXPECT_LE(references(0.2), references(0.0));
+}
+
 TEST(SpatialSplits, NameNoPrimitiveTwiceInALeaf) {
   const TriangleMesh mesh = slivers(2000, 10);
   const Bvh2 bvh = build_with_spatial_splits(mesh, {});

@@ -19,7 +19,7 @@ template <Geometry G>
   const std::size_t size = list.references.size();
   const double wanted = static_cast<double>(size) * (1.0 + settings.duplication_budget);
   const auto capacity = static_cast<std::size_t>(std::min(wanted, static_cast<double>(std::numeric_limits<std::int32_t>::max())));
-  const SpatialHeuristic<G> heuristic(context, geometry, least_overlap);
+  const SpatialHeuristic<G> heuristic(context, geometry, least_overlap, static_cast<float>(settings.least_overlap_of_range));
   return detail::drive_top_down(std::move(list), std::max(capacity, size), settings, heuristic);
 }
 

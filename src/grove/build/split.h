@@ -38,6 +38,16 @@ class SubsetTime {
         per_reference_(static_cast<float>(model.intersection)),
         per_level_(model.split_cost == SplitCost::equation_2 ? static_cast<float>(model.traversal) : 0.0F) {}
 
+  /// Of four subsets.
+  [[nodiscard]] Float4 operator()(Int4 counts) const {
+    const auto rest = static_cast<std::int32_t>(model_.block_size) - 1;
+    const Int4 in_whole_blocks = (counts + rest) & ~rest;
+    Float4 time = splat(per_reference_) * __builtin_convertvector(in_whole_blocks, Float4);
+    if (per_level_ > 0.0F)
+      for (int i = 0; i < 4; ++i) time[i] += per_level_ * static_cast<float>(std::bit_width(static_cast<std::uint32_t>(counts[i])));
+    return time;
+  }
+
   [[nodiscard]] float operator()(std::uint32_t count) const {
     return per_reference_ * static_cast<float>(model_.in_whole_blocks(count)) + per_level_ * static_cast<float>(std::bit_width(count));
   }

@@ -22,6 +22,8 @@ struct TopDownSettings {
   double duplication_budget = 1.0;
   /// Spatial splits only: they are tried where the overlap of the best object split has this share of the root's area (alpha in Stich et al. 2009).
   double least_overlap = 1e-5;
+  /// Spatial splits only: and this share of the area of the range's own box.
+  double least_overlap_of_range = 0.0;
 };
 
 /// Builds a binary hierarchy from the root down. The result is the same, bit for bit, for any number of threads. Where no split parts the

@@ -77,7 +77,8 @@ class SubtreeBuilder {
   using Child = Bvh2Node::Child;
 
   Child build_range(const ReferenceRange& range, std::uint32_t depth) {
-    if (range.count == 1) return make_leaf(range, depth);
+    // What is tested at once is not parted: two blocks, each with a box to test, mostly cost more.
+    if (range.count <= settings_.cost.block_size) return make_leaf(range, depth);
     const typename H::Split split = heuristic_.find(range, {references_ + range.first, range.count}, scratch_);
     ReferenceRange left;
     ReferenceRange right;

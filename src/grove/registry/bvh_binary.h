@@ -47,6 +47,8 @@ template <Geometry G>
     return options.split == "lbvh" ? build_lbvh(list, settings) : build_ploc(std::move(list), settings);
   }
   TopDownSettings settings = top_down_settings(options);
+  settings.duplication_budget = options.duplication_budget;
+  settings.least_overlap_of_range = options.least_overlap_of_range;
   if (options.split == "spatial") return build_with_spatial_splits(geometry, settings);
   return build_top_down(list_references(geometry), settings);
 }
@@ -64,7 +66,7 @@ template <Geometry G>
 template <Geometry G>
 [[nodiscard]] Bvh2 build_binary_hierarchy(const G& geometry, const BvhOptions& options) {
   Bvh2 bvh = build_by_split(geometry, options);
-  if (options.optimize == "reinsertion") bvh = optimize_by_reinsertion(bvh);
+  if (options.optimize == "reinsertion") bvh = optimize_by_reinsertion(bvh, options.reinsertion);
   return bvh;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "grove/build/passes/reinsertion.h"
 #include "grove/registry/spec.h"
 
 namespace grove {
@@ -21,6 +22,10 @@ struct BvhOptions {
   std::uint32_t radius = 8;
   /// So many primitives are tested at once (CostModel::block_size); no spec says so.
   std::uint32_t block_size = 1;
+  /// What else builders and passes leave to choose, and no spec says.
+  double duplication_budget = 1.0;
+  double least_overlap_of_range = 0.0;
+  ReinsertionSettings reinsertion;
 
   /// Whether later passes decide which references share a leaf, so that the builder must part them all.
   [[nodiscard]] bool leaves_are_decided_later() const { return arity > 2 || bounds != "aabb" || optimize != "none"; }

@@ -13,7 +13,7 @@ namespace grove {
 namespace {
 
 constexpr std::size_t kGrain = 16384;
-// Per axis. Coarse codes take three passes of sorting, fine ones six.
+// Per axis. Coarse codes take three passes of sorting, fine ones would take six.
 constexpr int kCoarseBits = 12;
 constexpr int kFineBits = 21;
 
@@ -43,43 +43,58 @@ class Grid {
 // So many primitives may share a code: they are a leaf or two. The two triangles of a quadrilateral often have the same centre, whatever the grid.
 constexpr std::size_t kShared = 4;
 
-// Whether more than one in 16 of sorted codes is shared by more than kShared.
+// How many of sorted codes are the same as the one `distance` places before.
 template <typename CodeOf>
-bool are_crowded(std::size_t size, const CodeOf& code_of) {
+std::size_t count_equal(std::size_t size, std::size_t distance, const CodeOf& code_of) {
   std::vector<std::size_t> equal((size + kGrain - 1) / kGrain, 0);
   parallel_chunks(size, kGrain, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-    for (std::size_t i = std::max(first, kShared); i < last; ++i) equal[chunk] += code_of(i) == code_of(i - kShared) ? 1 : 0;
+    for (std::size_t i = std::max(first, distance); i < last; ++i) equal[chunk] += code_of(i) == code_of(i - distance) ? 1 : 0;
   });
   std::size_t total = 0;
   for (const std::size_t count : equal) total += count;
-  return 16 * total > size;
+  return total;
 }
 
-}  // namespace
+// Of so many references with one code, one task makes an order.
+constexpr std::size_t kLongestRun = 65536;
 
-MortonOrder sort_by_morton_code(const ReferenceList& list) {
-  const std::size_t size = list.references.size();
-  const Box4 centres = measure_all(list.references).centres;
-  {
-    // Code and index share a word, the index in the low bits, so that equal codes stay in order of index.
-    const int index_bits = std::bit_width(size);
-    const int bits = std::min(kCoarseBits, (64 - index_bits) / 3);
-    const std::uint64_t index_mask = (std::uint64_t{1} << index_bits) - 1;
-    const Grid grid(centres, bits);
-    HugeVector<std::uint64_t> words(size);
-    parallel_for(size, kGrain, [&](std::size_t i) { words[i] = grid.code(list.references[i].doubled_centre()) << index_bits | i; });
-    radix_sort(words, index_bits, index_bits + 3 * bits);
-    const auto code_of = [&](std::size_t i) { return words[i] >> index_bits; };
-    if (!are_crowded(size, code_of)) {
-      MortonOrder order{{}, HugeVector<std::uint32_t>(size)};
-      parallel_for(size, kGrain, [&](std::size_t i) {
-        order.indices[i] = static_cast<std::uint32_t>(words[i] & index_mask);
-        words[i] >>= index_bits;
-      });
-      order.codes = std::move(words);
-      return order;
+// From an order by coarse codes to the one by fine codes: their upper bits are the coarse ones, so that only references that share one change places.
+// The lower bits stay 0 where a coarse code is not shared.
+void refine(const ReferenceList& list, const Box4& centres, MortonOrder& order) {
+  const Grid grid(centres, kFineBits);
+  const std::size_t size = order.codes.size();
+  const auto begins_run = [&](std::size_t i) { return i == 0 || i >= size || order.codes[i] != order.codes[i - 1]; };
+  std::vector<std::size_t> borders((size + kGrain - 1) / kGrain + 1, size);
+  parallel_for(borders.size() - 1, 1, [&](std::size_t chunk) {
+    std::size_t border = chunk * kGrain;
+    while (!begins_run(border)) ++border;
+    borders[chunk] = border;
+  });
+  constexpr std::size_t kAhead = 16;
+  parallel_for(borders.size() - 1, 1, [&](std::size_t chunk) {
+    std::vector<KeyedIndex> items;
+    std::size_t end = borders[chunk];
+    for (std::size_t begin = end; begin < borders[chunk + 1]; begin = end) {
+      __builtin_prefetch(&list.references[order.indices[std::min(begin + kAhead, size - 1)]]);
+      end = begin + 1;
+      // What lies behind the border may be changing.
+      while (end < borders[chunk + 1] && !begins_run(end)) ++end;
+      if (end - begin == 1) continue;
+      items.resize(end - begin);
+      for (std::size_t i = begin; i < end; ++i)
+        items[i - begin] = {grid.code(list.references[order.indices[i]].doubled_centre()), order.indices[i]};
+      std::sort(items.begin(), items.end(),
+                [](const KeyedIndex& a, const KeyedIndex& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+      for (std::size_t i = begin; i < end; ++i) {
+        order.codes[i] = items[i - begin].key;
+        order.indices[i] = items[i - begin].index;
+      }
     }
-  }
+  });
+}
+
+MortonOrder sort_by_fine_codes(const ReferenceList& list, const Box4& centres) {
+  const std::size_t size = list.references.size();
   const Grid grid(centres, kFineBits);
   HugeVector<KeyedIndex> items(size);
   parallel_for(size, kGrain, [&](std::size_t i) {
@@ -91,6 +106,32 @@ MortonOrder sort_by_morton_code(const ReferenceList& list) {
     order.codes[i] = items[i].key;
     order.indices[i] = items[i].index;
   });
+  return order;
+}
+
+}  // namespace
+
+MortonOrder sort_by_morton_code(const ReferenceList& list) {
+  const std::size_t size = list.references.size();
+  const Box4 centres = measure_all(list.references).centres;
+  // Code and index share a word, the index in the low bits, so that equal codes stay in order of index.
+  const int index_bits = std::bit_width(size);
+  const int bits = std::min(kCoarseBits, (64 - index_bits) / 3);
+  const std::uint64_t index_mask = (std::uint64_t{1} << index_bits) - 1;
+  const Grid grid(centres, bits);
+  HugeVector<std::uint64_t> words(size);
+  parallel_for(size, kGrain, [&](std::size_t i) { words[i] = grid.code(list.references[i].doubled_centre()) << index_bits | i; });
+  radix_sort(words, index_bits, index_bits + 3 * bits);
+  const auto code_of = [&](std::size_t i) { return words[i] >> index_bits; };
+  const bool is_crowded = 16 * count_equal(size, kShared, code_of) > size;
+  if (is_crowded && count_equal(size, kLongestRun, code_of) > 0) return sort_by_fine_codes(list, centres);
+  MortonOrder order{{}, HugeVector<std::uint32_t>(size)};
+  parallel_for(size, kGrain, [&](std::size_t i) {
+    order.indices[i] = static_cast<std::uint32_t>(words[i] & index_mask);
+    words[i] = (words[i] >> index_bits) << (3 * (is_crowded ? kFineBits - bits : 0));
+  });
+  order.codes = std::move(words);
+  if (is_crowded) refine(list, centres, order);
   return order;
 }
 

@@ -15,7 +15,7 @@ struct MortonOrder {
 };
 
 /// Orders references along the Morton curve over a cube around all centres. Codes have 36 bits; where more than
-/// one in 16 references then shares its code with four others, the full 63. O(n), parallel, deterministic.
+/// one in 16 references then shares its code with four others, all 63 where codes are shared. O(n), parallel, deterministic.
 [[nodiscard]] MortonOrder sort_by_morton_code(const ReferenceList& list);
 
 /// The references of `list` in that order. O(n), parallel.

@@ -8,46 +8,11 @@
 
 #include "grove/base/check.h"
 #include "grove/base/parallel.h"
+#include "grove/build/fast/child_orders.h"
+#include "grove/build/fast/planned_nodes.h"
 
 namespace grove {
 namespace {
-
-constexpr std::size_t kChunk = 1024;
-
-// The children from far to near by where their centres lie along the diagonal of the octant. Unused places come first, as the farthest.
-std::uint32_t order_for(const WideNode<8>& node, unsigned octant) {
-  float distance[8];
-  for (int i = 0; i < 8; ++i) {
-    distance[i] = std::numeric_limits<float>::infinity();
-    if (!node.has_child(i)) continue;
-    const Box box = node.child_box(i);
-    distance[i] = 0.0F;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float doubled_centre = 0.5F * box.lower[axis] + 0.5F * box.upper[axis];
-      distance[i] += (octant >> axis & 1U) != 0 ? -doubled_centre : doubled_centre;
-    }
-  }
-  std::uint32_t places[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-  std::stable_sort(places, places + 8, [&](std::uint32_t a, std::uint32_t b) { return distance[a] > distance[b]; });
-  std::uint32_t order = 0;
-  for (int k = 0; k < 8; ++k) order |= places[k] << (3 * k);
-  return order;
-}
-
-// The same node with the smallest box in the first place and the largest in the last.
-WideNode<8> by_area(const WideNode<8>& node) {
-  struct Place {
-    float area;
-    int place;
-  };
-  Place places[8];
-  int count = 0;
-  for (; count < 8 && node.has_child(count); ++count) places[count] = {node.child_box(count).half_area(), count};
-  std::sort(places, places + count, [](const Place& a, const Place& b) { return a.area != b.area ? a.area < b.area : a.place < b.place; });
-  WideNode<8> sorted = node;
-  for (int i = 0; i < count; ++i) sorted.set_child(i, node.child_box(places[i].place), node.child[places[i].place]);
-  return sorted;
-}
 
 void put(const TriangleMesh& mesh, std::uint32_t primitive, int place, TriangleBlock& block) {
   const Triangle& triangle = mesh.triangles()[primitive];
@@ -81,78 +46,130 @@ class Packing {
   using Child = typename Bvh::Child;
 
  public:
-  Packing(const WideBvh<8>& bvh, const TriangleMesh& mesh) : bvh_(bvh), mesh_(mesh) {}
+  Packing(const Bvh2& binary, const TriangleMesh& mesh) : binary_(binary), mesh_(mesh) {}
 
-  Bvh run() {
-    if (!bvh_.references.empty()) bvh_.nodes.empty() ? pack_single_leaf() : pack_nodes();
-    result_.bounds = bvh_.bounds;
+  Bvh run(const CollapseSettings& settings) {
+    if (binary_.references.empty()) return {};
+    const CollapsePlan plan(binary_, settings);
+    if (plan.root().count > 0) {
+      pack_single_leaf();
+    } else {
+      pack_pieces(list_planned_nodes(binary_, plan));
+    }
+    result_.bounds = binary_.bounds;
     return std::move(result_);
   }
 
  private:
   // A root that is a leaf gets a node above it, so that a traversal always starts at a node.
   void pack_single_leaf() {
-    const auto count = static_cast<std::uint32_t>(bvh_.references.size());
-    WideNode<8> node = empty_node();
-    node.set_child(0, bvh_.bounds, {0, count});
     result_ = Bvh(1, 1);
     result_.depth = 1;
-    std::size_t block = 0;
-    result_.references = pack(node, result_.nodes()[0], block);
+    EightBoxes boxes = no_boxes();
+    put_box(binary_.bounds, 0, boxes);
+    set_boxes(boxes, 1, result_.nodes()[0]);
+    for (Child& child : result_.nodes()[0].child) child = Child::node(0);
+    result_.blocks()[0] = pack_block<Block>(binary_.references, mesh_);
+    result_.references = result_.blocks()[0].count();
+    result_.nodes()[0].child[0] = result_.leaf(0);
   }
 
-  void pack_nodes() {
-    const std::size_t size = bvh_.nodes.size();
-    std::vector<std::size_t> first_block((size + kChunk - 1) / kChunk, 0);
-    parallel_chunks(size, kChunk, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i)
-        for (const auto& child : bvh_.nodes[i].child) first_block[chunk] += child.count > 0 ? 1 : 0;
-    });
-    std::size_t block_count = 0;
-    for (std::size_t& first : first_block) block_count += std::exchange(first, block_count);
-    result_ = Bvh(size, block_count);
-    result_.depth = bvh_.depth;
-    std::vector<std::uint32_t> references(first_block.size(), 0);
-    parallel_chunks(size, kChunk, [&](std::size_t chunk, std::size_t first, std::size_t last) {
-      std::size_t block = first_block[chunk];
-      for (std::size_t i = first; i < last; ++i) references[chunk] += pack(bvh_.nodes[i], result_.nodes()[i], block);
-    });
-    for (const std::uint32_t count : references) result_.references += count;
+  void pack_pieces(const std::vector<PlannedPiece>& pieces) {
+    const PlannedPiece& last = pieces.back();
+    result_ = Bvh(last.first_node + last.nodes.size(), last.first_block + last.block_count);
+    std::vector<std::uint32_t> references(pieces.size(), 0);
+    parallel_for(pieces.size(), 1, [&](std::size_t i) { references[i] = pack(pieces, pieces[i]); });
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      result_.references += references[i];
+      result_.depth = std::max(result_.depth, pieces[i].depth);
+    }
   }
 
-  static WideNode<8> empty_node() {
-    WideNode<8> node;
-    for (int i = 0; i < 8; ++i) node.set_child(i, Box{}, {0, 0});
-    return node;
-  }
-
-  // Writes a node, and its leaves from block number `block` on. Returns how many triangles these hold.
-  std::uint32_t pack(const WideNode<8>& unsorted, Node& to, std::size_t& block) {
-    const WideNode<8> from = by_area(unsorted);
+  // Returns how many triangles the piece holds.
+  std::uint32_t pack(const std::vector<PlannedPiece>& pieces, const PlannedPiece& piece) {
     std::uint32_t references = 0;
-    EightBoxes boxes;
-    static_assert(sizeof boxes.planes == sizeof from.planes);
-    std::copy_n(&from.planes[0][0][0], 3 * 2 * 8, &boxes.planes[0][0][0]);
-    int children = 0;
-    while (children < 8 && from.has_child(children)) ++children;
-    std::uint32_t orders[8];
-    for (unsigned octant = 0; octant < 8; ++octant) orders[octant] = order_for(from, octant);
-    to.set(boxes, children, orders);
-    for (int place = 0; place < 8; ++place) {
-      const auto [first, count] = from.child[place];
-      if (count == 0) {
-        to.child[place] = Child::node(from.has_child(place) ? first : 0);
-        continue;
+    std::size_t block = piece.first_block;
+    for (std::size_t number = 0; number < piece.nodes.size(); ++number) {
+      const PlannedNode planned = by_area(piece.nodes[number]);
+      Node& node = result_.nodes()[piece.first_node + number];
+      pack_boxes(planned, node);
+      for (int i = 0; i < Node::kWidth; ++i) {
+        if (planned.slot[i] == PlannedNode::kNoSlot) {
+          node.child[i] = Child::node(0);
+        } else if (planned.count[i] == 0) {
+          node.child[i] = Child::node(piece.is_over_pieces ? pieces[planned.first[i]].first_node : piece.first_node + planned.first[i]);
+        } else {
+          GROVE_ASSERT(planned.count[i] <= Block::kWidth);
+          result_.blocks()[block] = pack_block<Block>({binary_.references.data() + planned.first[i], planned.count[i]}, mesh_);
+          references += result_.blocks()[block].count();
+          node.child[i] = result_.leaf(block++);
+        }
       }
-      GROVE_ASSERT(count <= Block::kWidth);
-      result_.blocks()[block] = pack_block<Block>({bvh_.references.data() + first, count}, mesh_);
-      references += result_.blocks()[block].count();
-      to.child[place] = result_.leaf(block++);
     }
     return references;
   }
 
-  const WideBvh<8>& bvh_;
+  // The same node with the smallest box in the first place and the largest in the last.
+  [[nodiscard]] PlannedNode by_area(const PlannedNode& node) const {
+    struct Place {
+      float area;
+      int place;
+    };
+    Place places[8];
+    int count = 0;
+    for (; count < Node::kWidth && node.slot[count] != PlannedNode::kNoSlot; ++count) {
+      const std::uint32_t slot = node.slot[count];
+      const Place next = {binary_.nodes[slot / 2].child_box(static_cast<int>(slot % 2)).half_area(), count};
+      int place = count;
+      for (; place > 0 && places[place - 1].area > next.area; --place) places[place] = places[place - 1];
+      places[place] = next;
+    }
+    PlannedNode sorted = node;
+    for (int i = 0; i < count; ++i) {
+      sorted.slot[i] = node.slot[places[i].place];
+      sorted.first[i] = node.first[places[i].place];
+      sorted.count[i] = node.count[places[i].place];
+    }
+    return sorted;
+  }
+
+  void pack_boxes(const PlannedNode& planned, Node& node) const {
+    EightBoxes boxes = no_boxes();
+    int count = 0;
+    for (; count < Node::kWidth && planned.slot[count] != PlannedNode::kNoSlot; ++count) {
+      const std::uint32_t slot = planned.slot[count];
+      const auto& planes = binary_.nodes[slot / 2].planes;
+      for (int axis = 0; axis < 3; ++axis) {
+        boxes.planes[axis][0][count] = planes[axis][slot % 2];
+        boxes.planes[axis][1][count] = planes[axis][slot % 2 + 2];
+      }
+    }
+    set_boxes(boxes, count, node);
+  }
+
+  static EightBoxes no_boxes() {
+    EightBoxes boxes;
+    for (auto& planes : boxes.planes) {
+      std::fill_n(planes[0], Node::kWidth, std::numeric_limits<float>::infinity());
+      std::fill_n(planes[1], Node::kWidth, -std::numeric_limits<float>::infinity());
+    }
+    return boxes;
+  }
+
+  static void put_box(const Box& box, int place, EightBoxes& boxes) {
+    for (int axis = 0; axis < 3; ++axis) {
+      boxes.planes[axis][0][place] = box.lower[axis];
+      boxes.planes[axis][1][place] = box.upper[axis];
+    }
+  }
+
+  static void set_boxes(const EightBoxes& boxes, int count, Node& node) {
+    std::uint32_t orders[8];
+    order_children(boxes, count, orders);
+    node.set(boxes, count, orders);
+  }
+
+  const Bvh2& binary_;
   const TriangleMesh& mesh_;
   Bvh result_;
 };
@@ -160,10 +177,12 @@ class Packing {
 }  // namespace
 
 template <typename Bvh>
-Bvh pack_fast(const WideBvh<8>& bvh, const TriangleMesh& mesh) {
-  return Packing<Bvh>(bvh, mesh).run();
+Bvh pack_fast(const Bvh2& binary, const TriangleMesh& mesh, const CollapseSettings& settings) {
+  CollapseSettings eight = settings;
+  eight.arity = FastNode::kWidth;
+  return Packing<Bvh>(binary, mesh).run(eight);
 }
-template FastBvh pack_fast(const WideBvh<8>& bvh, const TriangleMesh& mesh);
-template CompressedFastBvh pack_fast(const WideBvh<8>& bvh, const TriangleMesh& mesh);
+template FastBvh pack_fast(const Bvh2& binary, const TriangleMesh& mesh, const CollapseSettings& settings);
+template CompressedFastBvh pack_fast(const Bvh2& binary, const TriangleMesh& mesh, const CollapseSettings& settings);
 
 }  // namespace grove

@@ -12,6 +12,10 @@ namespace {
 // Subtrees of fewer nodes are planned by one task.
 constexpr std::uint32_t kTaskSize = 16384;
 
+float half_area(float x, float y, float z) {
+  return x * (y + z) + y * z;
+}
+
 Box slot_box(const Bvh2& bvh, std::uint32_t slot) {
   return bvh.nodes[slot / 2].child_box(static_cast<int>(slot % 2));
 }
@@ -74,102 +78,136 @@ SlotAreas box_areas(const Bvh2& bvh) {
   return areas;
 }
 
+CollapsePlan::CollapsePlan(const Bvh2& bvh, const CollapseSettings& settings)
+    : bvh_(bvh), settings_(settings), area_scale_(AreaMeasure(bvh.bounds).scale()) {
+  plan();
+}
+
 CollapsePlan::CollapsePlan(const Bvh2& bvh, std::span<const float> slot_areas, float root_area, const CollapseSettings& settings)
-    : bvh_(bvh), slot_areas_(slot_areas), settings_(settings) {
+    : bvh_(bvh), slot_areas_(slot_areas), settings_(settings), area_scale_(1.0F) {
   if (bvh.nodes.empty()) return;
-  forests_.resize(bvh.nodes.size());
-  ranges_.resize(bvh.nodes.size());
   areas_.resize(bvh.nodes.size());
   areas_[0] = root_area;
   parallel_for(bvh.nodes.size(), 4096, [&](std::size_t i) {
     for (std::size_t side = 0; side < 2; ++side)
       if (bvh.nodes[i].child[side].count == 0) areas_[bvh.nodes[i].child[side].first] = slot_areas[2 * i + side];
   });
-  plan_range(0, static_cast<std::uint32_t>(bvh.nodes.size()));
+  plan();
+}
+
+void CollapsePlan::plan() {
+  if (bvh_.nodes.empty()) return;
+  if (settings_.widening == Widening::greedy) return list_ranges();
+  choices_.resize(bvh_.nodes.size());
+  plan_range(0, static_cast<std::uint32_t>(bvh_.nodes.size()));
 }
 
 // Plans the subtree of node `first`, whose nodes end before `last`.
-void CollapsePlan::plan_range(std::uint32_t first, std::uint32_t last) {
+LeastForests CollapsePlan::plan_range(std::uint32_t first, std::uint32_t last) {
+  if (last - first <= kTaskSize) return plan_small_range(first, last);
   const Bvh2Node& node = bvh_.nodes[first];
-  if (last - first <= kTaskSize || node.child[0].count > 0 || node.child[1].count > 0) {
-    if (last - first > kTaskSize) {
-      // One child is a leaf: the other is the rest.
-      plan_range(first + 1, last);
-      plan_node(first);
-      return;
-    }
-    for (std::uint32_t i = last; i-- > first;) plan_node(i);
-    return;
-  }
-  parallel_invoke([&] { plan_range(node.child[0].first, node.child[1].first); }, [&] { plan_range(node.child[1].first, last); });
-  plan_node(first);
+  LeastForests left;
+  LeastForests right;
+  const std::uint32_t middle = node.child[1].count > 0 ? last : node.child[1].first;
+  const auto plan_left = [&] { left = node.child[0].count > 0 ? forests_of_leaf(2 * first) : plan_range(first + 1, middle); };
+  const auto plan_right = [&] { right = node.child[1].count > 0 ? forests_of_leaf(2 * first + 1) : plan_range(middle, last); };
+  parallel_invoke(plan_left, plan_right);
+  plan_node(first, &left, &right, left);
+  return left;
 }
 
-float CollapsePlan::forest_cost(std::uint32_t slot, int roots) const {
-  const Bvh2Node::Child& child = bvh_.nodes[slot / 2].child[slot % 2];
-  if (child.count > 0) return slot_areas_[slot] * settings_.leaf_time(child.count);
-  return forests_[child.first].cost[roots - 1];
-}
-
-void CollapsePlan::plan_node(std::uint32_t node) {
-  const Bvh2Node& binary = bvh_.nodes[node];
-  const Range sides[2] = {binary.child[0].count > 0 ? Range{binary.child[0].first, binary.child[0].count} : ranges_[binary.child[0].first],
-                          binary.child[1].count > 0 ? Range{binary.child[1].first, binary.child[1].count} : ranges_[binary.child[1].first]};
-  ranges_[node] = {sides[0].first, sides[0].count + sides[1].count};
-  if (settings_.widening == Widening::greedy) return;  // decided from the top
-  Forests& forests = forests_[node];
-  const int arity = settings_.arity;
-  float left[kMaxArity];
-  float right[kMaxArity];
-  for (int roots = 1; roots < arity; ++roots) {
-    left[roots] = forest_cost(2 * node, roots);
-    right[roots] = forest_cost(2 * node + 1, roots);
-  }
-  const auto distribute = [&](int roots, std::uint8_t& choice) {
-    float best = std::numeric_limits<float>::infinity();
-    for (int k = 1; k < roots; ++k) {
-      if (left[k] + right[roots - k] < best) {
-        best = left[k] + right[roots - k];
-        choice = static_cast<std::uint8_t>(k);
+// Backwards, so that subtrees come before what they are in; those that wait for it are on a stack, the left of two on top.
+LeastForests CollapsePlan::plan_small_range(std::uint32_t first, std::uint32_t last) {
+  LeastForests waiting[Bvh2::kMaxDepth + 2];
+  LeastForests leaves[2];
+  std::size_t count = 0;
+  for (std::uint32_t node = last; node-- > first;) {
+    const LeastForests* sides[2];
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      if (bvh_.nodes[node].child[side].count > 0) {
+        leaves[side].set_leaf(slot_area(2 * node + side), bvh_.nodes[node].child[side].count, settings_);
+        sides[side] = &leaves[side];
+      } else {
+        sides[side] = &waiting[--count];
       }
     }
-    return best;
-  };
-  std::uint8_t choice = 1;
-  const float interior = areas_[node] * static_cast<float>(settings_.cost.traversal) + distribute(arity, choice);
-  const float leaf = ranges_[node].count <= settings_.leaf_size ? areas_[node] * settings_.leaf_time(ranges_[node].count)
-                                                                : std::numeric_limits<float>::infinity();
-  const bool is_leaf = leaf <= interior;
-  forests.choice[0] = is_leaf ? 0 : choice;
-  forests.cost[0] = is_leaf ? leaf : interior;
-  for (int roots = 2; roots < arity; ++roots) {
-    const float cost = distribute(roots, choice);
-    const bool is_better = cost < forests.cost[roots - 2];
-    forests.choice[roots - 1] = is_better ? choice : 0;
-    forests.cost[roots - 1] = is_better ? cost : forests.cost[roots - 2];
+    plan_node(node, sides[0], sides[1], waiting[count]);
+    ++count;
   }
+  return waiting[0];
+}
+
+void CollapsePlan::plan_node(std::uint32_t node, const LeastForests* left, const LeastForests* right, LeastForests& both) {
+  choices_[node] = both.join(*left, *right, node_area(node), settings_);
+}
+
+LeastForests CollapsePlan::forests_of_leaf(std::uint32_t slot) const {
+  LeastForests forests;
+  forests.set_leaf(slot_area(slot), bvh_.nodes[slot / 2].child[slot % 2].count, settings_);
+  return forests;
+}
+
+float CollapsePlan::slot_area(std::uint32_t slot) const {
+  if (!slot_areas_.empty()) return slot_areas_[slot];
+  const auto& planes = bvh_.nodes[slot / 2].planes;
+  const std::uint32_t side = slot % 2;
+  return half_area((planes[0][side + 2] - planes[0][side]) * area_scale_, (planes[1][side + 2] - planes[1][side]) * area_scale_,
+                   (planes[2][side + 2] - planes[2][side]) * area_scale_);
+}
+
+float CollapsePlan::node_area(std::uint32_t node) const {
+  if (!areas_.empty()) return areas_[node];
+  const auto& planes = bvh_.nodes[node].planes;
+  const auto extent = [&](int axis) {
+    return (std::max(planes[axis][2], planes[axis][3]) - std::min(planes[axis][0], planes[axis][1])) * area_scale_;
+  };
+  return half_area(extent(0), extent(1), extent(2));
+}
+
+void CollapsePlan::list_ranges() {
+  ranges_.resize(bvh_.nodes.size());
+  for (std::size_t node = ranges_.size(); node-- > 0;) {
+    const auto range = [&](const Bvh2Node::Child& child) {
+      return child.count > 0 ? Range{child.first, child.count} : ranges_[child.first];
+    };
+    const Range left = range(bvh_.nodes[node].child[0]);
+    ranges_[node] = {left.first, left.count + range(bvh_.nodes[node].child[1]).count};
+  }
+}
+
+// The references of a node, which stand in one piece.
+CollapsePlan::Range CollapsePlan::range_of(std::uint32_t node) const {
+  if (!ranges_.empty()) return ranges_[node];
+  Bvh2Node::Child first = bvh_.nodes[node].child[0];
+  Bvh2Node::Child last = bvh_.nodes[node].child[1];
+  while (first.count == 0) first = bvh_.nodes[first.first].child[0];
+  while (last.count == 0) last = bvh_.nodes[last.first].child[1];
+  return {first.first, last.first + last.count - first.first};
 }
 
 CollapsePlan::Child CollapsePlan::child_of(std::uint32_t slot) const {
   const Bvh2Node::Child& link = bvh_.nodes[slot / 2].child[slot % 2];
   if (link.count > 0) return {slot, kNoNode, link.first, link.count};
-  if (is_leaf(link.first)) return {slot, link.first, ranges_[link.first].first, ranges_[link.first].count};
+  if (is_leaf(link.first)) {
+    const Range range = range_of(link.first);
+    return {slot, link.first, range.first, range.count};
+  }
   return {slot, link.first, 0, 0};
 }
 
 CollapsePlan::Child CollapsePlan::root() const {
   if (bvh_.nodes.empty()) return {kRootSlot, kNoNode, 0, static_cast<std::uint32_t>(bvh_.references.size())};
-  if (is_leaf(0)) return {kRootSlot, 0, 0, ranges_[0].count};
+  if (is_leaf(0)) return {kRootSlot, 0, 0, range_of(0).count};
   return {kRootSlot, 0, 0, 0};
 }
 
 void CollapsePlan::collect(std::uint32_t slot, int roots, Child* children, int& count) const {
   const Bvh2Node::Child& link = bvh_.nodes[slot / 2].child[slot % 2];
   if (link.count == 0) {
-    const Forests& forests = forests_[link.first];
-    while (roots > 1 && forests.choice[roots - 1] == 0) --roots;
+    const ForestChoices choices = choices_[link.first];
+    while (roots > 1 && choices.of_roots(roots) == 0) --roots;
     if (roots > 1) {
-      const int from_left = forests.choice[roots - 1];
+      const auto from_left = static_cast<int>(choices.of_roots(roots));
       collect(2 * link.first, from_left, children, count);
       collect(2 * link.first + 1, roots - from_left, children, count);
       return;
@@ -186,26 +224,26 @@ int CollapsePlan::children(std::uint32_t node, Child* children) const {
     for (int i = 0; i < count; ++i) children[i] = child_of(slots[i]);
     return count;
   }
-  const int from_left = forests_[node].choice[0];
+  const auto from_left = static_cast<int>(choices_[node].of_roots(1));
   collect(2 * node, from_left, children, count);
   collect(2 * node + 1, settings_.arity - from_left, children, count);
   return count;
 }
 
 bool CollapsePlan::is_leaf(std::uint32_t node) const {
-  if (settings_.widening == Widening::optimal) return forests_[node].choice[0] == 0;
+  if (settings_.widening == Widening::optimal) return choices_[node].of_roots(1) == 0;
   if (ranges_[node].count > settings_.leaf_size) return false;
   std::uint32_t slots[kMaxArity];
   const int count = open_greedily(node, slots);
-  float split = areas_[node] * static_cast<float>(settings_.cost.traversal);
+  float split = node_area(node) * static_cast<float>(settings_.cost.traversal);
   for (int i = 0; i < count; ++i) split += subset_cost(slots[i]);
-  return areas_[node] * settings_.leaf_time(ranges_[node].count) <= split;
+  return node_area(node) * settings_.leaf_time(ranges_[node].count) <= split;
 }
 
 float CollapsePlan::subset_cost(std::uint32_t slot) const {
   const Bvh2Node::Child& link = bvh_.nodes[slot / 2].child[slot % 2];
   const std::uint32_t count = link.count > 0 ? link.count : ranges_[link.first].count;
-  return slot_areas_[slot] * settings_.leaf_time(count);
+  return slot_area(slot) * settings_.leaf_time(count);
 }
 
 int CollapsePlan::open_greedily(std::uint32_t node, std::uint32_t* slots) const {
@@ -240,8 +278,7 @@ Bvh2 collapse_leaves(const Bvh2& bvh, const CollapseSettings& settings) {
   CollapseSettings binary = settings;
   binary.arity = 2;
   binary.widening = Widening::optimal;
-  const SlotAreas areas = box_areas(bvh);
-  const CollapsePlan plan(bvh, areas.slots, areas.root, binary);
+  const CollapsePlan plan(bvh, binary);
   collapsed.nodes.reserve(bvh.nodes.size() / 2);
   emit(bvh, plan, collapsed, [](Bvh2Node& node, int i, const Box& box, std::uint32_t first, std::uint32_t count) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -259,8 +296,7 @@ WideBvh<kWidth> widen(const Bvh2& bvh, const CollapseSettings& settings) {
   if (bvh.references.empty()) return wide;
   CollapseSettings of_arity = settings;
   of_arity.arity = kWidth;
-  const SlotAreas areas = box_areas(bvh);
-  const CollapsePlan plan(bvh, areas.slots, areas.root, of_arity);
+  const CollapsePlan plan(bvh, of_arity);
   wide.nodes.reserve(bvh.nodes.size() / static_cast<std::size_t>(kWidth));
   emit(bvh, plan, wide, [](WideNode<kWidth>& node, int i, const Box& box, std::uint32_t first, std::uint32_t count) {
     node.set_child(i, box, {first, count});

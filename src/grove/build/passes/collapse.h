@@ -19,29 +19,18 @@
 
 #include "grove/accel/bvh2.h"
 #include "grove/accel/wide_bvh.h"
-#include "grove/build/cost_model.h"
+#include "grove/build/passes/least_forests.h"
 
 namespace grove {
-
-enum class Widening : std::uint8_t { optimal, greedy };
-
-struct CollapseSettings {
-  int arity = 2;  ///< most children of a node, 2 to kMaxArity
-  std::uint32_t leaf_size = 8;
-  Widening widening = Widening::optimal;
-  CostModel cost = {};
-
-  [[nodiscard]] float leaf_time(std::uint32_t count) const {
-    return static_cast<float>(cost.intersection) * static_cast<float>(cost.in_whole_blocks(count));
-  }
-};
 
 /// What a binary hierarchy is to be collapsed to. Knows subtrees by the numbers of their root nodes.
 class CollapsePlan {
  public:
-  static constexpr int kMaxArity = 8;
+  static constexpr int kMaxArity = CollapseSettings::kMaxArity;
 
-  /// `slot_areas[2 i + side]` is the area of the volume around that child of node i, in any unit and for any convex volume. `bvh` must be in depth-first order and outlive the plan. O(nodes), parallel by subtrees.
+  /// By the areas of the boxes. `bvh` must be in depth-first order and outlive the plan. O(nodes), parallel by subtrees.
+  CollapsePlan(const Bvh2& bvh, const CollapseSettings& settings);
+  /// The same by other areas: `slot_areas[2 i + side]` is the area of the volume around that child of node i, in any unit and for any convex volume.
   CollapsePlan(const Bvh2& bvh, std::span<const float> slot_areas, float root_area, const CollapseSettings& settings);
 
   /// A child of a planned node.
@@ -60,16 +49,19 @@ class CollapsePlan {
   int children(std::uint32_t node, Child* children) const;
 
  private:
-  // The best forests of at most 1, 2, … kMaxArity - 1 roots for one subtree. choice[0]: 0 for a leaf, else how many of the node's
-  // children come from its left side; choice[k]: 0 when a root less is as good, else the same for a forest of k + 1 roots.
-  struct Forests {
-    float cost[kMaxArity - 1];
-    std::uint8_t choice[kMaxArity];
+  struct Range {
+    std::uint32_t first, count;
   };
 
-  void plan_range(std::uint32_t first, std::uint32_t last);
-  void plan_node(std::uint32_t node);
-  [[nodiscard]] float forest_cost(std::uint32_t slot, int roots) const;
+  void plan();
+  LeastForests plan_range(std::uint32_t first, std::uint32_t last);
+  LeastForests plan_small_range(std::uint32_t first, std::uint32_t last);
+  void plan_node(std::uint32_t node, const LeastForests* left, const LeastForests* right, LeastForests& both);
+  [[nodiscard]] LeastForests forests_of_leaf(std::uint32_t slot) const;
+  [[nodiscard]] float slot_area(std::uint32_t slot) const;
+  [[nodiscard]] float node_area(std::uint32_t node) const;
+  void list_ranges();
+  [[nodiscard]] Range range_of(std::uint32_t node) const;
   void collect(std::uint32_t slot, int roots, Child* children, int& count) const;
   [[nodiscard]] Child child_of(std::uint32_t slot) const;
   [[nodiscard]] bool is_leaf(std::uint32_t node) const;
@@ -80,12 +72,11 @@ class CollapsePlan {
   const Bvh2& bvh_;
   std::span<const float> slot_areas_;
   CollapseSettings settings_;
-  std::vector<Forests> forests_;
-  std::vector<float> areas_;  // of each node
-  struct Range {
-    std::uint32_t first, count;
-  };
-  std::vector<Range> ranges_;  // the references of each node
+  float area_scale_;
+  HugeVector<ForestChoices> choices_;  // of each node
+  // Areas of nodes, where they are not those of the boxes, and the references of each node, for the greedy plan.
+  std::vector<float> areas_;
+  std::vector<Range> ranges_;
 };
 
 /// Half areas of the boxes of all slots in scaled units, and of the root.

@@ -1,6 +1,7 @@
 #include "grove/build/passes/reinsertion.h"
 
 #include <algorithm>
+#include <functional>
 #include <vector>
 
 #include "grove/base/parallel.h"
@@ -10,7 +11,8 @@
 namespace grove {
 namespace {
 
-constexpr std::size_t kSearchGrain = 256;
+// Slots that one task goes through.
+constexpr std::size_t kChunk = 1024;
 
 struct Move {
   std::uint32_t from = 0;  ///< the slot that is taken out
@@ -22,22 +24,35 @@ class Reinserter {
  public:
   explicit Reinserter(const Bvh2& bvh) : tree_(bvh), scale_(AreaMeasure(bvh.bounds).scale()) {}
 
-  // One round over the slots whose numbers give the rest `phase` by `stride`.
-  void run_round(std::uint32_t phase, std::uint32_t stride) {
-    const std::uint32_t slot_count = 2 * tree_.node_count();
-    // The slots of the root stay: taking one out would leave a root with one child.
-    const std::uint32_t first = 2 + phase;
-    if (first >= slot_count) return;
-    const std::size_t candidate_count = (slot_count - first + stride - 1) / stride;
-    std::vector<Move> moves(candidate_count);
-    parallel_ranges(candidate_count, kSearchGrain, [&](std::size_t begin, std::size_t end) {
+  // One round over the slots of which is_candidate(slot) is true. Those of the root stay: taking one out would leave a root with one child.
+  template <typename IsCandidate>
+  void run_round(const IsCandidate& is_candidate) {
+    const std::size_t slot_count = 2 * std::size_t{tree_.node_count()};
+    std::vector<std::vector<Move>> found((slot_count + kChunk - 1) / kChunk);
+    parallel_chunks(slot_count, kChunk, [&](std::size_t chunk, std::size_t first, std::size_t last) {
       std::vector<Pending> stack;
-      for (std::size_t i = begin; i < end; ++i) moves[i] = find_best(first + static_cast<std::uint32_t>(i) * stride, stack);
+      for (std::size_t i = std::max<std::size_t>(first, 2); i < last; ++i) {
+        const auto slot = static_cast<std::uint32_t>(i);
+        if (!is_candidate(slot)) continue;
+        const Move move = find_best(slot, stack);
+        if (move.gain > 0.0F) found[chunk].push_back(move);
+      }
     });
-    std::erase_if(moves, [](const Move& move) { return !(move.gain > 0.0F); });
+    std::vector<Move> moves;
+    for (const std::vector<Move>& of_chunk : found) moves.insert(moves.end(), of_chunk.begin(), of_chunk.end());
     parallel_sort(moves, [](const Move& a, const Move& b) { return a.gain != b.gain ? a.gain > b.gain : a.from < b.from; });
     touched_.assign(tree_.node_count(), 0);
     for (const Move& move : moves) apply(move);
+  }
+
+  void run_round(std::uint32_t phase, std::uint32_t stride) {
+    run_round([=](std::uint32_t slot) { return (slot - 2) % stride == phase; });
+  }
+
+  // One round over about that share of the slots whose areas are largest.
+  void run_round_of_largest(double share) {
+    const float least = area_exceeded_by(share);
+    run_round([&](std::uint32_t slot) { return area(tree_.slots[slot].box()) > least; });
   }
 
   // Sum of the scaled half areas of all boxes but the root's.
@@ -56,6 +71,18 @@ class Reinserter {
   };
 
   [[nodiscard]] float area(const Box4& box) const { return scaled_half_area(box, scale_); }
+
+  // Judged by every 16th slot.
+  [[nodiscard]] float area_exceeded_by(double share) const {
+    constexpr std::size_t kSampled = 16;
+    std::vector<float> areas((tree_.slots.size() + kSampled - 1) / kSampled);
+    for (std::size_t i = 0; i < areas.size(); ++i) areas[i] = area(tree_.slots[kSampled * i].box());
+    const auto rank = static_cast<std::size_t>(share * static_cast<double>(areas.size()));
+    if (rank >= areas.size()) return -1.0F;
+    const auto place = areas.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(areas.begin(), place, areas.end(), std::greater<>());
+    return *place;
+  }
 
   [[nodiscard]] Move find_best(std::uint32_t from, std::vector<Pending>& stack) const {
     Move best{from, from, 0.0F};
@@ -156,8 +183,12 @@ Bvh2 optimize_by_reinsertion(const Bvh2& bvh, const ReinsertionSettings& setting
   const double before = reinserter.total_area();
   double area = before;
   for (std::uint32_t round = 0; round < settings.rounds; ++round) {
-    reinserter.run_round(round % settings.stride, settings.stride);
-    if ((round + 1) % settings.stride != 0) continue;
+    if (settings.largest > 0.0) {
+      reinserter.run_round_of_largest(settings.largest);
+    } else {
+      reinserter.run_round(round % settings.stride, settings.stride);
+      if ((round + 1) % settings.stride != 0) continue;
+    }
     const double now = reinserter.total_area();
     if (!(area - now > settings.least_gain * area)) break;
     area = now;

@@ -118,14 +118,6 @@ class Emitter {
 
 }  // namespace
 
-Box4 SlotTree::Slot::box() const {
-  return {without_last_lane(lower), without_last_lane(upper)};
-}
-
-Bvh2Node::Child SlotTree::Slot::link() const {
-  return {static_cast<std::uint32_t>(reinterpret_cast<Int4>(lower)[3]), static_cast<std::uint32_t>(reinterpret_cast<Int4>(upper)[3])};
-}
-
 void SlotTree::Slot::set_box(const Box4& box) {
   set(box, link());
 }

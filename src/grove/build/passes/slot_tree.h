@@ -17,8 +17,11 @@ struct SlotTree {
     Float4 lower;  ///< lane 3: the bits of `first`
     Float4 upper;  ///< lane 3: the bits of `count`
 
-    [[nodiscard]] Box4 box() const;
-    [[nodiscard]] Bvh2Node::Child link() const;
+    [[nodiscard]] Box4 box() const { return {without_last_lane(lower), without_last_lane(upper)}; }
+    [[nodiscard]] Bvh2Node::Child link() const {
+      return {static_cast<std::uint32_t>(reinterpret_cast<const Int4&>(lower)[3]),
+              static_cast<std::uint32_t>(reinterpret_cast<const Int4&>(upper)[3])};
+    }
     void set_box(const Box4& box);
     void set(const Box4& box, Bvh2Node::Child link);
   };

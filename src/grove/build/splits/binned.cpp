@@ -18,70 +18,96 @@ BinMapping::BinMapping(const Box4& doubled_centres, std::size_t reference_count)
 }
 
 void Bins::clear(int bin_count) {
-  for (int axis = 0; axis < 3; ++axis) {
-    std::fill_n(box[axis], bin_count, Box4::empty());
-    std::fill_n(count[axis], bin_count, 0U);
-  }
+  for (auto& boxes : box) std::fill_n(boxes, bin_count, Box4::empty());
+  std::fill_n(count, bin_count, Int4{});
 }
 
 void Bins::add(const BinMapping& mapping, std::span<const PrimitiveReference> references) {
+  // A copy, which cannot change while bins are written.
+  const BinMapping to_bins = mapping;
   for (const PrimitiveReference& reference : references) {
     const Box4 bounds = reference.box();
-    const Int4 bin = mapping.bins(bounds.lower + bounds.upper);
-    box[0][bin[0]].grow(bounds);
-    ++count[0][bin[0]];
-    box[1][bin[1]].grow(bounds);
-    ++count[1][bin[1]];
-    box[2][bin[2]].grow(bounds);
-    ++count[2][bin[2]];
+    const Int4 bin = to_bins.bins(bounds.lower + bounds.upper);
+    for (int axis = 0; axis < 3; ++axis) {
+      box[axis][bin[axis]].grow(bounds);
+      ++reinterpret_cast<std::int32_t*>(count + bin[axis])[axis];
+    }
   }
 }
 
 void Bins::merge(const Bins& other, int bin_count) {
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < bin_count; ++i) {
-      box[axis][i].grow(other.box[axis][i]);
-      count[axis][i] += other.count[axis][i];
-    }
-  }
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < bin_count; ++i) box[axis][i].grow(other.box[axis][i]);
+  for (int i = 0; i < bin_count; ++i) count[i] += other.count[i];
 }
 
+namespace {
+
+// The boxes of growing sets of bins along all three axes, and what they cost, one axis a lane.
+class Sides {
+ public:
+  Sides(const Bins& bins, const SplitContext& context) : bins_(bins), context_(context) {}
+
+  void grow(int bin) {
+    for (int axis = 0; axis < 3; ++axis) boxes_[axis].grow(bins_.box[axis][bin]);
+    counts_ += bins_.count[bin];
+  }
+  [[nodiscard]] Int4 counts() const { return counts_; }
+  // Not a number where a set is empty.
+  [[nodiscard]] Float4 cost() const {
+    const Float4 scale = splat(context_.area_scale);
+    Float4 extent[4] = {};
+    for (int axis = 0; axis < 3; ++axis) extent[axis] = (boxes_[axis].upper - boxes_[axis].lower) * scale;
+    transpose(extent);
+    return (extent[0] * (extent[1] + extent[2]) + extent[1] * extent[2]) * context_.time(counts_);
+  }
+
+ private:
+  const Bins& bins_;
+  const SplitContext& context_;
+  Box4 boxes_[3] = {Box4::empty(), Box4::empty(), Box4::empty()};
+  Int4 counts_{};
+};
+
+}  // namespace
+
 BinnedSplit find_binned_split(const Bins& bins, const BinMapping& mapping, const SplitContext& context) {
+  const int bin_count = mapping.bin_count;
+  Float4 right_cost[kMaxBinCount];
+  Sides right(bins, context);
+  for (int i = bin_count - 1; i > 0; --i) {
+    right.grow(i);
+    right_cost[i] = right.cost();
+  }
+  const Int4 total = right.counts() + bins.count[0];
+  Float4 least = splat(std::numeric_limits<float>::infinity());
+  Int4 border{};
+  Sides left(bins, context);
+  for (int i = 1; i < bin_count; ++i) {
+    left.grow(i - 1);
+    const Float4 cost = left.cost() + right_cost[i];
+    // Costs of empty sides are not numbers, or infinite.
+    const Int4 is_less = (cost < least) & (left.counts() != Int4{}) & (left.counts() != total);
+    least = is_less ? cost : least;
+    border = is_less ? Int4{i, i, i, i} : border;
+  }
   BinnedSplit best;
   best.mapping = mapping;
   best.cost = std::numeric_limits<float>::infinity();
-  const int bin_count = mapping.bin_count;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!mapping.can_split(axis)) continue;
-    float right_cost[kMaxBinCount];
-    Box4 right = Box4::empty();
-    std::uint32_t right_count = 0;
-    for (int i = bin_count - 1; i > 0; --i) {
-      right.grow(bins.box[axis][i]);
-      right_count += bins.count[axis][i];
-      right_cost[i] = right_count > 0 ? scaled_half_area(right, context.area_scale) * context.time(right_count) : 0.0F;
-    }
-    Box4 left = Box4::empty();
-    std::uint32_t left_count = 0;
-    const std::uint32_t total = right_count + bins.count[axis][0];
-    for (int i = 1; i < bin_count; ++i) {
-      left.grow(bins.box[axis][i - 1]);
-      left_count += bins.count[axis][i - 1];
-      if (left_count == 0 || left_count == total) continue;
-      const float cost = scaled_half_area(left, context.area_scale) * context.time(left_count) + right_cost[i];
-      if (cost < best.cost) {
-        best.is_possible = true;
-        best.axis = axis;
-        best.bin = i;
-        best.cost = cost;
-        best.left = left;
-        best.left_count = left_count;
-        best.right_count = total - left_count;
-      }
-    }
+    if (!mapping.can_split(axis) || !(least[axis] < best.cost)) continue;
+    best.is_possible = true;
+    best.axis = axis;
+    best.bin = border[axis];
+    best.cost = least[axis];
   }
-  if (best.is_possible)
-    for (int i = best.bin; i < bin_count; ++i) best.right.grow(bins.box[best.axis][i]);
+  if (!best.is_possible) return best;
+  for (int i = 0; i < best.bin; ++i) {
+    best.left.grow(bins.box[best.axis][i]);
+    best.left_count += static_cast<std::uint32_t>(bins.count[i][best.axis]);
+  }
+  for (int i = best.bin; i < bin_count; ++i) best.right.grow(bins.box[best.axis][i]);
+  best.right_count = static_cast<std::uint32_t>(total[best.axis]) - best.left_count;
   return best;
 }
 

@@ -34,7 +34,7 @@ struct BinMapping {
 /// Bounds and counts of the bins along all three axes.
 struct Bins {
   Box4 box[3][kMaxBinCount];
-  std::uint32_t count[3][kMaxBinCount];
+  Int4 count[kMaxBinCount];  // an axis a lane
 
   void clear(int bin_count);
   void add(const BinMapping& mapping, std::span<const PrimitiveReference> references);

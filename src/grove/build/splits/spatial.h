@@ -71,9 +71,10 @@ class SpatialHeuristic {
   };
   static constexpr bool kDividesReferences = true;
 
-  /// Spatial splits are tried where the sides of the object split overlap by more than `least_overlap`, a half area in scaled units.
-  SpatialHeuristic(const SplitContext& context, const G& geometry, float least_overlap)
-      : objects_(context), geometry_(geometry), least_overlap_(least_overlap) {}
+  /// Spatial splits are tried where the sides of the object split overlap by more than `least_overlap`, a half area in scaled units, and by more
+  /// than the share `least_overlap_of_range` of the range's half area.
+  SpatialHeuristic(const SplitContext& context, const G& geometry, float least_overlap, float least_overlap_of_range)
+      : objects_(context), geometry_(geometry), least_overlap_(least_overlap), least_overlap_of_range_(least_overlap_of_range) {}
   [[nodiscard]] const SplitContext& context() const { return objects_.context(); }
 
   [[nodiscard]] SpatialSplit find(const ReferenceRange& range, std::span<const PrimitiveReference> references, Scratch& scratch) const {
@@ -81,7 +82,7 @@ class SpatialHeuristic {
     if (!is_worth_trying(range, split)) return split;
     const SpatialGrid grids[3] = {{range.bounds, 0}, {range.bounds, 1}, {range.bounds, 2}};
     scratch.spatial.clear();
-    add(scratch.spatial, grids, references);
+    add(scratch.spatial, range.bounds, grids, references);
     choose_spatial(split, scratch.spatial, grids, range, references, references.size());
     return split;
   }
@@ -93,7 +94,7 @@ class SpatialHeuristic {
     std::vector<SpatialBins> bins((references.size() + kBuildChunkSize - 1) / kBuildChunkSize);
     parallel_chunks(references.size(), kBuildChunkSize, [&](std::size_t chunk, std::size_t first, std::size_t last) {
       bins[chunk].clear();
-      add(bins[chunk], grids, references.subspan(first, last - first));
+      add(bins[chunk], range.bounds, grids, references.subspan(first, last - first));
     });
     for (std::size_t chunk = 1; chunk < bins.size(); ++chunk) bins[0].merge(bins[chunk]);
     choose_spatial(split, bins[0], grids, range, references, kBuildChunkSize);
@@ -120,7 +121,8 @@ class SpatialHeuristic {
     if (!split.is_possible) return true;
     const Box4 overlap{max(split.left.lower, split.right.lower), min(split.left.upper, split.right.upper)};
     if (first_three_lanes(overlap.lower <= overlap.upper) != 7) return false;
-    return scaled_half_area(overlap, context().area_scale) > least_overlap_;
+    const float area = scaled_half_area(overlap, context().area_scale);
+    return area > least_overlap_ && area > least_overlap_of_range_ * scaled_half_area(range.bounds, context().area_scale);
   }
 
   // A part that clipping finds empty, by a rounding, keeps the box it was clipped to: a reference without a box would be lost.
@@ -129,10 +131,19 @@ class SpatialHeuristic {
     return clipped.is_empty() ? box : clipped;
   }
 
-  void add(SpatialBins& bins, const SpatialGrid grids[3], std::span<const PrimitiveReference> references) const {
+  void add(SpatialBins& bins, const Box4& bounds, const SpatialGrid grids[3], std::span<const PrimitiveReference> references) const {
+    const SpatialGrids all(bounds, grids);
     for (const PrimitiveReference& reference : references) {
       const Box4 whole = reference.box();
+      Int4 bin;
+      const int is_single = first_three_lanes(all.single_bins(whole, bin));
       for (int axis = 0; axis < 3; ++axis) {
+        if ((is_single >> axis & 1) != 0) {
+          ++bins.begin[axis][bin[axis]];
+          ++bins.end[axis][bin[axis]];
+          bins.box[axis][bin[axis]].grow(whole);
+          continue;
+        }
         const SpatialGrid& grid = grids[axis];
         if (!grid.is_usable()) continue;
         const int first = grid.first_bin(whole.lower[axis]);
@@ -202,6 +213,7 @@ class SpatialHeuristic {
   BinnedHeuristic objects_;
   const G& geometry_;
   float least_overlap_;
+  float least_overlap_of_range_;
 };
 
 }  // namespace grove

@@ -11,6 +11,7 @@ SpatialGrid::SpatialGrid(const Box4& bounds, int axis) {
   const float width = (upper - lower) / static_cast<float>(kSpatialBinCount);
   for (int i = 0; i < kSpatialBinCount; ++i) planes_[i] = lower + width * static_cast<float>(i);
   planes_[kSpatialBinCount] = upper;
+  width_ = width;
   inverse_width_ = 1.0F / width;
   is_usable_ = width > 0.0F && inverse_width_ <= std::numeric_limits<float>::max();
   for (int i = 0; i < kSpatialBinCount; ++i) is_usable_ = is_usable_ && planes_[i] < planes_[i + 1];
