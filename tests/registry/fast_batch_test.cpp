@@ -102,8 +102,8 @@ TEST_P(FastBatch, FindsWhatBruteForceFinds) {
 TEST_P(FastBatch, FindsWhatBruteForceFindsForRaysSideBySide) {
   for (const NamedGeometry& named : matrix_geometries()) {
     if (!std::holds_alternative<std::shared_ptr<const TriangleMesh>>(named.geometry)) continue;
-    const std::vector<Ray> rays = with_neighbours(matrix_rays(named.geometry, 2, 13), 31);
-    const std::size_t batches[] = {32, 100, rays.size()};
+    const std::vector<Ray> rays = with_neighbours(matrix_rays(named.geometry, 2, 13), 63);
+    const std::size_t batches[] = {32, 64, 300, rays.size()};
     expect_hits_of_brute_force(named, *build(named.geometry, spec()), rays, batches);
   }
 }
@@ -174,7 +174,7 @@ TEST_P(FastBatch, FindsWhatAFilterLeaves) {
   std::size_t hit_count = 0;
   for (const Filtered& of : filtered(spec())) {
     std::vector<Ray> rays = with_long_and_short_directions(matrix_rays(of.geometry, 8, 13));
-    const std::vector<Ray> side_by_side = with_neighbours(matrix_rays(of.geometry, 1, 15), 31);
+    const std::vector<Ray> side_by_side = with_neighbours(matrix_rays(of.geometry, 1, 15), 63);
     rays.resize(rays.size() / 32 * 32);  // neighbours fall into one group of the kernel
     rays.insert(rays.end(), side_by_side.begin(), side_by_side.end());
     std::vector<Hit> hits(rays.size());
@@ -198,7 +198,7 @@ TEST_P(FastBatch, FindsWhatAFilterLeaves) {
 TEST_P(FastBatch, AsksAboutAllThatIsRefused) {
   std::size_t most = 0;
   for (const Filtered& of : filtered(spec())) {
-    std::vector<Ray> rays = with_neighbours(matrix_rays(of.geometry, 1, 16), 31);
+    std::vector<Ray> rays = with_neighbours(matrix_rays(of.geometry, 1, 16), 63);
     const std::vector<Ray> others = with_long_and_short_directions(matrix_rays(of.geometry, 3, 14));
     rays.insert(rays.end(), others.begin(), others.end());
     RefuseAll on_the_rays;

@@ -18,7 +18,8 @@ struct EightBoxes {
   }
 };
 
-/// An interior node with up to eight children, in four cache lines.
+/// An interior node with up to eight children, in four cache lines. Their boxes grow from place to place: a search for any hit begins with the last, where
+/// it is likeliest to find one.
 ///
 ///   bytes   0..191  bounds of the children; unused places have an inverted infinite box, which no ray meets
 ///   bytes 192..223  child[i]

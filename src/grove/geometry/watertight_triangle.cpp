@@ -85,15 +85,19 @@ float watertight::hit_distance(const WatertightRay& ray, const TriangleCorners& 
   const DVec3 p2 = in_order(corners.corner(2)) - origin;
   const DVec3 normal = glm::cross(p1 - p0, p2 - p0);
   const double forward = direction.z;
-  const double plane_depth = glm::dot(normal, p0) / glm::dot(normal, direction) * forward;
+  const double plane_t = glm::dot(normal, p0) / glm::dot(normal, direction);
+  const double plane_depth = plane_t * forward;
 
   // The depth of the point of the triangle that the edge tests found, which is near the ray whatever the angle: in double the edge
   // functions of float corners are exact but for their last rounding.
   const DVec3 edges = edge_weights(to_double(sheared.x), to_double(sheared.y));
-  const double edge_depth = glm::dot(edges, to_double(sheared.z)) / (edges.x + edges.y + edges.z);
+  const double weighted_depth = glm::dot(edges, to_double(sheared.z));
+  const double sum = edges.x + edges.y + edges.z;
   const double tolerance = watertight::kDepthTolerance * largest_coordinate(p0, p1, p2);
-  if (std::fabs(plane_depth - edge_depth) <= tolerance) return static_cast<float>(plane_depth / forward);
+  // Without dividing by the sum, which takes as long as all the rest.
+  if (std::fabs(plane_depth * sum - weighted_depth) <= tolerance * std::fabs(sum)) return static_cast<float>(plane_t);
 
+  const double edge_depth = weighted_depth / sum;
   // Almost edge-on: the rounding of the shear, sideways, has become a long way along the plane.
   double depth = exact_depth(direction, p0, p1, p2, tolerance);
   if (!(std::fabs(depth) < kInfinity)) {

@@ -34,6 +34,21 @@ std::uint32_t order_for(const WideNode<8>& node, unsigned octant) {
   return order;
 }
 
+// The same node with the smallest box in the first place and the largest in the last.
+WideNode<8> by_area(const WideNode<8>& node) {
+  struct Place {
+    float area;
+    int place;
+  };
+  Place places[8];
+  int count = 0;
+  for (; count < 8 && node.has_child(count); ++count) places[count] = {node.child_box(count).half_area(), count};
+  std::sort(places, places + count, [](const Place& a, const Place& b) { return a.area != b.area ? a.area < b.area : a.place < b.place; });
+  WideNode<8> sorted = node;
+  for (int i = 0; i < count; ++i) sorted.set_child(i, node.child_box(places[i].place), node.child[places[i].place]);
+  return sorted;
+}
+
 void put(const TriangleMesh& mesh, std::uint32_t primitive, int place, TriangleBlock& block) {
   const Triangle& triangle = mesh.triangles()[primitive];
   for (int corner = 0; corner < 3; ++corner)
@@ -112,7 +127,8 @@ class Packing {
   }
 
   // Writes a node, and its leaves from block number `block` on. Returns how many triangles these hold.
-  std::uint32_t pack(const WideNode<8>& from, Node& to, std::size_t& block) {
+  std::uint32_t pack(const WideNode<8>& unsorted, Node& to, std::size_t& block) {
+    const WideNode<8> from = by_area(unsorted);
     std::uint32_t references = 0;
     EightBoxes boxes;
     static_assert(sizeof boxes.planes == sizeof from.planes);

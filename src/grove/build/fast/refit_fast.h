@@ -14,8 +14,8 @@ struct FastRefit {
 };
 
 /// Measures the boxes of a hierarchy of the fast path anew from the leaves up, and writes the corners of triangles into its blocks where they stand there:
-/// `mesh` is the one that it was packed from, with other vertices. The topology stays, and so does the order of children for each octant of direction,
-/// which tells how soon a hit is found and not which. Children of compressed nodes are put on a grid anew. O(references), parallel; the same for any
+/// `mesh` is the one that it was packed from, with other vertices. The topology stays, and so do the places of children and their order for each octant of direction,
+/// which tell how soon a hit is found and not which. Children of compressed nodes are put on a grid anew. O(references), parallel; the same for any
 /// number of threads. `Bvh` is FastBvh or CompressedFastBvh.
 template <typename Bvh>
 FastRefit refit_fast(Bvh& bvh, const TriangleMesh& mesh, const CostModel& model = {});

@@ -19,6 +19,7 @@
 #include "grove/traverse/simd/beside.h"
 #include "grove/traverse/simd/leaf_tests-inl.h"
 #include "grove/traverse/simd/node_step-inl.h"
+#include "grove/traverse/simd/packet_leaves-inl.h"
 #include "grove/traverse/simd/packet_walk-inl.h"
 #include "grove/traverse/simd/ray_group-inl.h"
 #include "grove/traverse/simd/triangle_test.h"
@@ -35,6 +36,7 @@ class BatchKernel {
   using Node = typename Bvh::Node;
   static constexpr bool kCounts = kBeside == Beside::counting;
   static constexpr bool kFilters = kBeside == Beside::filtering;
+  using Rays = PacketRays::Set;
 
  public:
   BatchKernel(const BatchQuery<Bvh>& query, BatchMemory& memory)
@@ -45,6 +47,7 @@ class BatchKernel {
         capacity_(memory.capacity()),
         units_(query.scene.bvh.units()),
         leaves_(query, memory),
+        packet_leaves_(query, packet_.rays()),
         free_(memory.slot_count() == kSlots ? ~SlotSet{0} : (SlotSet{1} << memory.slot_count()) - 1) {}
 
   void run() {
@@ -135,17 +138,21 @@ class BatchKernel {
   HWY_NOINLINE void fill() {
     for (;;) {
       if (next_ray_ == group_end_) {
-        if (next_ray_ == query_.count || std::popcount(free_) < std::min<int>(kPacketRays, memory_.slot_count())) return;
+        if (next_ray_ == query_.count || std::popcount(free_) < std::min<int>(kSingles, memory_.slot_count())) return;
         group_.prepare(query_.rays + next_ray_, std::min<std::size_t>(kPacketRays, query_.count - next_ray_));
         group_end_ += group_.count();
-        if (!kCounts && !query_.scene.bvh.empty() && groups_alone_ == 0 && group_.is_packet()) {
-          trace_packet();
-          groups_alone_ = packet_.is_worth_it() ? 0 : kGroupsAlone;
-          continue;
-        }
-        groups_alone_ -= groups_alone_ == 0 ? 0 : 1;
       }
       const std::size_t number = group_.count() - (group_end_ - next_ray_);
+      if (next_ray_ == next_look_) {
+        const std::size_t count = rays_side_by_side(number);
+        next_look_ = std::min(next_ray_ + (count == 0 ? kHalf : count), group_end_);
+        if (count != 0) {
+          trace_packet(number, count);
+          halves_alone_ = packet_.is_worth_it() ? 0 : kHalvesAlone;
+          continue;
+        }
+        halves_alone_ -= halves_alone_ == 0 ? 0 : 1;
+      }
       if constexpr (kCounts) query_.counts[next_ray_] = {};
       if (!group_.is_regular(number) || query_.scene.bvh.empty()) {
         trace_alone(query_.rays[next_ray_]);
@@ -154,74 +161,81 @@ class BatchKernel {
       }
       if (free_ == 0 || memory_.slot_count() - std::popcount(free_) >= kSingles) return;
       const std::uint32_t slot = take_first(free_);
-      take_ray(memory_.slot(slot), number);
+      take_ray(memory_.slot(slot), next_ray_++, number);
       at_node_ |= SlotSet{1} << slot;
     }
   }
 
-  // Puts the next ray, `number` of the group, into a slot, at the root.
-  HWY_INLINE void take_ray(BatchSlot& slot, std::size_t number) {
+  // How many of the group's rays from `number` on, the beginning of a half, go side by side.
+  [[nodiscard]] HWY_INLINE std::size_t rays_side_by_side(std::size_t number) const {
+    if (kCounts || query_.scene.bvh.empty() || halves_alone_ != 0) return 0;
+    if (number == 0 && group_.is_packet(0, kPacketRays)) return kPacketRays;
+    return group_.is_packet(number, kHalf) ? kHalf : 0;
+  }
+
+  // Puts a ray, `number` of the group, into a slot, at the root.
+  HWY_INLINE void take_ray(BatchSlot& slot, std::size_t index, std::size_t number) {
     group_.copy(number, slot.ray);
-    slot.t = query_.rays[next_ray_].t_max;
+    slot.t = query_.rays[index].t_max;
     slot.u = 0.0F;
     slot.v = 0.0F;
     slot.primitive = kInvalidId;
-    slot.index = next_ray_++;
+    slot.index = index;
     slot.stack_size = 1;
     slot.next = 0;
   }
 
-  // Traces the group's rays side by side, until each is alone or finished.
-  HWY_INLINE void trace_packet() {
-    using Rays = typename PacketWalk<Bvh>::Rays;
-    packet_.take(group_, query_.rays + next_ray_);
+  // Traces `count` of the group's rays from `number` on side by side. Those that are handed over go on alone, in slots.
+  HWY_INLINE void trace_packet(std::size_t number, std::size_t count) {
+    const std::size_t first = next_ray_;
+    packet_.take(group_, number, count, query_.rays + first);
     std::uint8_t slot_of[kPacketRays];
     SlotSet slots = 0;
-    for (std::size_t i = 0; i < kPacketRays; ++i) {
-      const std::uint32_t number = take_first(free_);
-      slot_of[i] = static_cast<std::uint8_t>(number);
-      slots |= SlotSet{1} << number;
-      take_ray(memory_.slot(number), i);
-    }
-    const auto test_leaf = [&](std::uint32_t word, Rays rays) {
-      SlotSet testing = 0;
-      for (Rays left = rays; left != 0; left &= left - 1) {
-        const std::uint32_t number = slot_of[std::countr_zero(left)];
-        memory_.slot(number).next = word;
-        testing |= SlotSet{1} << number;
-      }
-      leaves_.test_side_by_side(testing, packet_.rays(), rays, slot_of);
-      Rays finished = 0;
-      for (Rays left = rays; left != 0; left &= left - 1) {
-        const auto ray = static_cast<std::uint32_t>(std::countr_zero(left));
-        const BatchSlot& slot = memory_.slot(slot_of[ray]);
-        if constexpr (kAny) {
-          finished |= Rays{slot.primitive != kInvalidId} << ray;
-        } else {
-          packet_.shorten(ray, slot.t);
-        }
-      }
-      return finished;
-    };
+    Rays with_slots = 0;
+    const auto test_leaf = [&](std::uint32_t word, Rays rays) { return packet_leaves_.test(word, rays, first); };
     const auto hand_over = [&](std::uint32_t word, Rays rays, const float* nears) {
-      for (Rays left = rays; left != 0; left &= left - 1)
+      if (std::popcount(rays & ~with_slots) > std::popcount(free_)) return false;
+      for (Rays left = rays & with_slots; left != 0; left &= left - 1)
         if (memory_.slot(slot_of[std::countr_zero(left)]).stack_size > kMostHandedOver) return false;
       for (Rays left = rays; left != 0; left &= left - 1) {
         const auto ray = static_cast<std::uint32_t>(std::countr_zero(left));
+        if ((with_slots >> ray & 1U) == 0) {
+          const std::uint32_t slot = take_first(free_);
+          slot_of[ray] = static_cast<std::uint8_t>(slot);
+          slots |= SlotSet{1} << slot;
+          with_slots |= Rays{1} << ray;
+          take_ray(memory_.slot(slot), first + ray, number + ray);
+        }
         BatchSlot& slot = memory_.slot(slot_of[ray]);
         slot.stack_t()[slot.stack_size] = nears[ray];
         slot.stack_child(capacity_)[slot.stack_size++] = word;
       }
       return true;
     };
-    packet_.run(test_leaf, hand_over);
-    // What was handed over first is to be visited first.
-    for (SlotSet left = slots; left != 0;) {
-      BatchSlot& slot = memory_.slot(take_first(left));
+    const Rays finished = packet_.run(test_leaf, hand_over);
+    for (std::uint32_t ray = 0; ray < count; ++ray)
+      if ((with_slots >> ray & 1U) == 0) write(first + ray, packet_hit(ray, finished));
+    for (Rays left = with_slots; left != 0; left &= left - 1) {
+      const auto ray = static_cast<std::uint32_t>(std::countr_zero(left));
+      BatchSlot& slot = memory_.slot(slot_of[ray]);
+      slot.take(packet_hit(ray, finished));
+      // What was handed over first is to be visited first.
       std::reverse(slot.stack_t() + 1, slot.stack_t() + slot.stack_size);
       std::reverse(slot.stack_child(capacity_) + 1, slot.stack_child(capacity_) + slot.stack_size);
+      if constexpr (kAny) {
+        if ((finished >> ray & 1U) != 0) slot.stack_size = 1;
+      } else {
+        drop_what_is_farther(slot, capacity_);
+      }
     }
+    next_ray_ += count;
     advance(slots);
+  }
+
+  [[nodiscard]] HWY_INLINE Hit packet_hit(std::uint32_t ray, Rays finished) {
+    Hit hit = packet_.rays().hit(ray);
+    if (kAny && (finished >> ray & 1U) != 0) hit.primitive = 0;
+    return hit;
   }
 
   void trace_alone(const Ray& ray) {
@@ -249,19 +263,22 @@ class BatchKernel {
 
   const BatchQuery<Bvh>& query_;
   RayGroup<kPacketRays> group_;
-  PacketWalk<Bvh> packet_;
+  PacketWalk<Bvh, kAny> packet_;
   BatchMemory& memory_;
   const std::size_t capacity_;
   const FastUnit* const units_;
   LeafTests<Bvh, kTest, kAny, kBeside> leaves_;
+  PacketLeaves<Bvh, kTest, kAny, kBeside> packet_leaves_;
   SlotSet at_node_ = 0;
   SlotSet at_leaf_ = 0;
   SlotSet done_ = 0;
   SlotSet free_;
-  // So many groups go on alone after one that did not stay together.
-  static constexpr int kGroupsAlone = 8;
-  int groups_alone_ = 0;
+  static constexpr std::size_t kHalf = kPacketRays / 2;
+  // So many halves of groups go on alone after a packet that did not stay together.
+  static constexpr int kHalvesAlone = 8;
+  int halves_alone_ = 0;
   std::size_t next_ray_ = 0;
+  std::size_t next_look_ = 0;  // whether rays go side by side
   std::size_t group_end_ = 0;
 };
 

@@ -8,12 +8,14 @@
 
 namespace grove {
 
-/// Where the planes of a node's children begin for rays of an octant, in planes: the near ones and the far ones by axis. Octants are numbered as
+/// Where the planes of a node's children begin for rays of an octant, in planes: the near ones by axis, and the far ones. Octants are numbered as
 /// a node's orders.
 struct PlaneRows {
   std::uint32_t near[3];
-  std::uint32_t far[3];
   std::uint32_t octant;
+
+  /// The lower planes of an axis and the upper ones are neighbours.
+  [[nodiscard]] constexpr std::uint32_t far(int axis) const { return near[axis] ^ std::uint32_t{FastNode::kWidth}; }
 };
 
 inline constexpr auto kPlaneRows = [] {
@@ -21,9 +23,7 @@ inline constexpr auto kPlaneRows = [] {
   for (std::uint32_t octant = 0; octant < 8; ++octant) {
     table[octant].octant = octant;
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
-      const std::uint32_t near = 2 * axis + (octant >> axis & 1U);
-      table[octant].near[axis] = FastNode::kWidth * near;
-      table[octant].far[axis] = FastNode::kWidth * (near ^ 1U);
+      table[octant].near[axis] = FastNode::kWidth * (2 * axis + (octant >> axis & 1U));
     }
   }
   return table;

@@ -34,9 +34,10 @@ struct BatchQuery {
 struct alignas(64) BatchSlot {
   BatchRay ray;
   std::uint32_t next;  // the child to go to: the child's word, or kDone
-  float t;             // what is farther is not looked for: t_max, then that of the closest hit
   std::uint32_t stack_size;
-  std::uint32_t primitive;  // that is hit, or kInvalidId
+  // The closest hit, in one register. What is farther than t is not looked for: it begins as t_max.
+  alignas(16) float t;
+  std::uint32_t primitive;  // or kInvalidId
   float u, v;
   std::size_t index;  // in the batch
 
@@ -62,8 +63,8 @@ struct alignas(64) BatchSlot {
 // As many rays are in flight at most, and as many of them may be alone: from 16 to 48 the speed is the same (docs/fast.md).
 inline constexpr std::uint32_t kSlots = 64;
 inline constexpr std::uint32_t kSingles = 32;
-// Rays that can go side by side.
-inline constexpr std::uint32_t kPacketRays = 32;
+// So many rays can go side by side, or half of them.
+inline constexpr std::uint32_t kPacketRays = 64;
 // So many children a packet may hand over to a ray.
 inline constexpr std::uint32_t kMostHandedOver = 24;
 

@@ -17,6 +17,7 @@
 #include "grove/accel/fast_block.h"
 #include "grove/geometry/hit.h"
 #include "grove/traverse/simd/batch_ray.h"
+#include "grove/traverse/simd/block_test-inl.h"
 #include "grove/traverse/simd/compaction-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -45,39 +46,52 @@ HWY_INLINE V inner3(const V a[3], const V b[3]) {
   return hn::Add(hn::Add(hn::Mul(a[0], b[0]), hn::Mul(a[1], b[1])), hn::Mul(a[2], b[2]));
 }
 
+// The hits of pairs of a ray and a triangle, within [t_min, t_max].
+template <typename D>
+struct FloatHits {
+  hn::Vec<D> t, u, v;
+  hn::Mask<D> mask;
+};
+
+template <typename D, typename V = hn::Vec<D>>
+HWY_INLINE FloatHits<D> test_pairs(D d, const RayTrianglePairs<V>& pairs, V t_min, V t_max) {
+  V edge1[3];
+  V edge2[3];
+  V from[3];  // the first corner to the origin
+  for (int axis = 0; axis < 3; ++axis) {
+    const V corner0 = pairs.corner[axis][0];
+    edge1[axis] = hn::Sub(pairs.corner[axis][1], corner0);
+    edge2[axis] = hn::Sub(pairs.corner[axis][2], corner0);
+    from[axis] = hn::Neg(hn::Add(corner0, pairs.minus_origin[axis]));
+  }
+  V p[3];
+  V q[3];
+  cross3(pairs.direction, edge2, p);
+  cross3(from, edge1, q);
+  const V inverse = hn::Div(hn::Set(d, 1.0F), inner3(edge1, p));
+  FloatHits<D> hits;
+  hits.u = hn::Mul(inner3(from, p), inverse);
+  hits.v = hn::Mul(inner3(pairs.direction, q), inverse);
+  hits.t = hn::Mul(inner3(edge2, q), inverse);
+  // A triangle seen edge-on has a NaN or an infinity here, which fails.
+  const auto inside = hn::And(hn::Ge(hn::Min(hits.u, hits.v), hn::Zero(d)), hn::Le(hn::Add(hits.u, hits.v), hn::Set(d, 1.0F)));
+  const auto in_range =
+      hn::And(hn::And(hn::Ge(hits.t, t_min), hn::Le(hits.t, t_max)), hn::Lt(hits.t, hn::Set(d, std::numeric_limits<float>::infinity())));
+  hits.mask = hn::And(inside, in_range);
+  return hits;
+}
+
 HWY_INLINE void test_block(const BatchRay& ray, float t_max, const TriangleBlock& block, FourHits& hits) {
   const hn::CappedTag<float, TriangleBlock::kWidth> d;
-  using V = hn::Vec<decltype(d)>;
-  const std::uint32_t axes[3] = {ray.axes.kx, ray.axes.ky, ray.axes.kz};
+  RayTrianglePairs<hn::Vec<decltype(d)>> pairs;
+  set_ray(ray, pairs);
   for (std::size_t first = 0; first < TriangleBlock::kWidth; first += hn::MaxLanes(d)) {
-    V edge1[3];
-    V edge2[3];
-    V from[3];  // the first corner to the origin
-    V direction[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto& corner = block.corners[axes[axis]];
-      const V corner0 = hn::LoadU(d, corner[0] + first);
-      edge1[axis] = hn::Sub(hn::LoadU(d, corner[1] + first), corner0);
-      edge2[axis] = hn::Sub(hn::LoadU(d, corner[2] + first), corner0);
-      from[axis] = hn::Neg(hn::Add(corner0, hn::Set(d, ray.minus_origin_k[axis])));
-      direction[axis] = hn::Set(d, ray.direction_k[axis]);
-    }
-    V p[3];
-    V q[3];
-    cross3(direction, edge2, p);
-    cross3(from, edge1, q);
-    const V inverse = hn::Div(hn::Set(d, 1.0F), inner3(edge1, p));
-    const V u = hn::Mul(inner3(from, p), inverse);
-    const V v = hn::Mul(inner3(direction, q), inverse);
-    const V t = hn::Mul(inner3(edge2, q), inverse);
-    // A triangle seen edge-on has a NaN or an infinity here, which fails.
-    const auto inside = hn::And(hn::Ge(hn::Min(u, v), hn::Zero(d)), hn::Le(hn::Add(u, v), hn::Set(d, 1.0F)));
-    const auto in_range = hn::And(hn::And(hn::Ge(t, hn::Set(d, ray.t_min)), hn::Le(t, hn::Set(d, t_max))),
-                                  hn::Lt(t, hn::Set(d, std::numeric_limits<float>::infinity())));
-    hits.places |= bits_of(d, hn::And(inside, in_range)) << first;
-    hn::StoreU(t, d, hits.t + first);
-    hn::StoreU(u, d, hits.u + first);
-    hn::StoreU(v, d, hits.v + first);
+    set_corners(ray.axes, block, first, pairs);
+    const auto some = test_pairs(d, pairs, hn::Set(d, ray.t_min), hn::Set(d, t_max));
+    hits.places |= bits_of(d, some.mask) << first;
+    hn::StoreU(some.t, d, hits.t + first);
+    hn::StoreU(some.u, d, hits.u + first);
+    hn::StoreU(some.v, d, hits.v + first);
   }
 }
 

@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include <cstdint>
+#include <type_traits>
 
 #include "grove/traverse/simd/bit_tables.h"
 
@@ -28,11 +29,11 @@ HWY_INLINE std::uint32_t bits_of(D d, M mask) {
   return (first | std::uint32_t{bits[1]} << 8) & ((1U << hn::MaxLanes(D())) - 1);
 }
 
-// The lanes of eight whose bits are set, then the others. By a table on every instruction set: where there is an instruction for it, it is not faster.
-template <typename DU>
-HWY_INLINE hn::Vec<DU> front_places(DU du, std::uint32_t bits) {
-  const hn::Rebind<std::uint8_t, DU> d8;
-  return hn::PromoteTo(du, hn::LoadU(d8, kFrontPlaces[bits].data()));
+// The lanes whose bits are set.
+template <typename D>
+HWY_INLINE hn::Mask<D> mask_of(D d, std::uint32_t bits) {
+  const std::uint8_t bytes[8] = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8U)};
+  return hn::LoadMaskBits(d, bytes);
 }
 
 // Lane i of the result is the lane of `v` that the low three bits of places[i] name. (The instruction looks at no others; checks of debug builds do.)
@@ -44,6 +45,45 @@ HWY_INLINE V look_up(D d, V v, P places) {
 #endif
   return hn::TableLookupLanes(v, hn::IndicesFromVec(d, places));
 }
+
+// Bits for all lanes.
+struct AllLanes {
+  HWY_INLINE std::uint32_t operator&(std::uint32_t bits) const { return bits; }
+};
+
+// Some lanes of eight.
+template <typename D>
+class LaneSet {
+ public:
+  // Those of a mask whose bits are set, or AllLanes().
+  template <typename Bits>
+  HWY_INLINE LaneSet(D d, hn::Mask<D> mask, Bits among) : mask_(mask), bits_(among & bits_of(d, mask)) {
+#if HWY_TARGET <= HWY_AVX3
+    if constexpr (!std::is_same_v<Bits, AllLanes>) mask_ = mask_of(d, bits_);
+#endif
+  }
+
+  [[nodiscard]] HWY_INLINE std::uint32_t bits() const {
+    return bits_;
+  }
+
+  // These lanes of `v` in their order; what comes behind them means nothing. By an instruction where there is one, otherwise by a table.
+  template <typename DV, typename V>
+  [[nodiscard]] HWY_INLINE V to_front(DV d, V v) const {
+#if HWY_TARGET <= HWY_AVX3
+    static_cast<void>(d);
+    return hn::Compress(v, hn::RebindMask(d, mask_));
+#else
+    const hn::RebindToUnsigned<DV> du;
+    const hn::Rebind<std::uint8_t, decltype(du)> d8;
+    return look_up(d, v, hn::PromoteTo(du, hn::LoadU(d8, kFrontPlaces[bits_].data())));
+#endif
+  }
+
+ private:
+  hn::Mask<D> mask_;
+  std::uint32_t bits_;
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace grove

@@ -20,7 +20,6 @@
 #include "grove/traverse/simd/block_hits-inl.h"
 #include "grove/traverse/simd/block_test-inl.h"
 #include "grove/traverse/simd/node_step-inl.h"
-#include "grove/traverse/simd/packet_rays-inl.h"
 #include "grove/traverse/simd/triangle_test.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -51,42 +50,7 @@ class LeafTests {
     }
   }
 
-  // The same for slots that are at one block, and whose rays are some of a packet: ray i is in slot slot_of[i].
-  HWY_INLINE void test_side_by_side(SlotSet testing, const PacketRays& packet, PacketRays::Set rays, const std::uint8_t* slot_of) {
-    if (kTest != TriangleTest::watertight || !packet.has_one_kind_of_axes || std::popcount(rays) < kFewestSideBySide) {
-      test(testing);
-      return;
-    }
-    const TriangleBlock& block = gathered(block_at(memory_.slot(slot_of[std::countr_zero(rays)])), query_.scene.vertices);
-    std::uint8_t possible[kSlots] = {};
-    SlotSet settling = 0;
-    const std::uint32_t count = block.count();
-    for (std::uint32_t place = 0; place < count; ++place) {
-      const PacketRays::Pairs pairs = packet.filter<kAnywhere>(block, place, rays);
-      if constexpr (kAnywhere) {
-        for (PacketRays::Set left = pairs.certain; left != 0; left &= left - 1) {
-          const std::uint32_t number = slot_of[std::countr_zero(left)];
-          memory_.slot(number).primitive = 0;
-          memory_.slot(number).stack_size = 1;
-          settling &= ~(SlotSet{1} << number);
-        }
-        rays &= ~pairs.certain;
-      }
-      for (PacketRays::Set left = pairs.possible & rays; left != 0; left &= left - 1) {
-        const std::uint32_t number = slot_of[std::countr_zero(left)];
-        possible[number] = static_cast<std::uint8_t>(possible[number] | 1U << place);
-        settling |= SlotSet{1} << number;
-      }
-    }
-    if constexpr (kGathers)
-      for (SlotSet left = settling; left != 0;) gathered_[take_first(left)] = block;
-    settle(settling, possible);
-  }
-
  private:
-  // With fewer rays it is quicker to test a block's triangles for each.
-  static constexpr int kFewestSideBySide = 12;
-
   [[nodiscard]] HWY_INLINE const Block& block_at(const BatchSlot& slot) const { return place_of<Block>(units_, slot.next); }
 
   // Brings the triangles of leaves together where blocks only number their corners: asks for all corners first, so that they come side by side.
@@ -198,35 +162,50 @@ class LeafTests {
   HWY_INLINE SlotSet test_appended() {
     test_candidates(candidates_);
     SlotSet hit = 0;
-    for (std::size_t i = 0; i < candidates_.count; ++i) {
+    for (std::uint64_t left = candidates_.valid; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
+      const std::uint32_t number = candidates_.slot[i];
+      hit |= SlotSet{take_hit(memory_.slot(number), i) ? 1U : 0U} << number;
+    }
+    for (std::uint64_t left = candidates_.unknown; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
       const std::uint32_t number = candidates_.slot[i];
       BatchSlot& slot = memory_.slot(number);
-      const TriangleBlock& block = block_of(number, slot);
-      const bool is_hit = (candidates_.known >> i & 1U) != 0 ? take_hit(slot, block, i) : test_alone(slot, block, candidates_.place[i]);
-      hit |= SlotSet{is_hit ? 1U : 0U} << number;
+      if (test_alone(slot, block_of(number, slot), candidates_.place[i])) hit |= SlotSet{1} << number;
     }
     candidates_.count = 0;
     return hit;
   }
 
-  HWY_INLINE bool take_hit(BatchSlot& slot, const TriangleBlock& block, std::size_t i) {
-    const float t = candidates_.t[i];
+  HWY_INLINE bool take_hit(BatchSlot& slot, std::size_t i) {
+    const float* const found = candidates_.hit[i];
     if constexpr (kAnywhere) {
-      if (!(t >= slot.ray.t_min && t <= slot.t && t < std::numeric_limits<float>::infinity())) return false;
+      if (!(found[0] <= slot.t)) return false;
       slot.primitive = 0;
       return true;
     }
-    const std::uint32_t primitive = block.primitive[candidates_.place[i]];
-    if (!(t >= slot.ray.t_min && is_closer(t, primitive, slot.hit()))) return false;
-    const float sum = candidates_.weight[0][i] + candidates_.weight[1][i] + candidates_.weight[2][i];
-    Hit hit;
-    hit.t = t;
-    hit.u = candidates_.weight[1][i] / sum;
-    hit.v = candidates_.weight[2][i] / sum;
-    hit.primitive = primitive;
-    if (!counts(hit, slot)) return false;
-    slot.take(hit);
-    return true;
+    const std::uint32_t primitive = candidates_.primitive[i];
+    // Without branches: as many are closer as not.
+    const bool is_closer = (static_cast<unsigned>(found[0] < slot.t) |
+                            (static_cast<unsigned>(found[0] == slot.t) & static_cast<unsigned>(primitive < slot.primitive))) != 0;
+    if constexpr (kFilters) {
+      if (!is_closer) return false;
+      Hit hit;
+      hit.t = found[0];
+      hit.primitive = primitive;
+      hit.u = found[2];
+      hit.v = found[3];
+      if (!counts(hit, slot)) return false;
+      slot.take(hit);
+      return true;
+    }
+    const hn::CappedTag<std::uint32_t, 4> d;
+    auto* const kept = reinterpret_cast<std::uint32_t*>(&slot.t);
+    const auto* const closer = reinterpret_cast<const std::uint32_t*>(found);
+    const auto mask = hn::Ne(hn::Set(d, is_closer ? 1U : 0U), hn::Zero(d));
+    for (std::size_t lane = 0; lane < 4; lane += hn::MaxLanes(d))
+      hn::Store(hn::IfThenElse(mask, hn::Load(d, closer + lane), hn::Load(d, kept + lane)), d, kept + lane);
+    return is_closer;
   }
 
   HWY_NOINLINE bool test_alone(BatchSlot& slot, const TriangleBlock& block, std::uint32_t place) {

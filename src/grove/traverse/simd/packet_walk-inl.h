@@ -54,8 +54,8 @@ HWY_INLINE float plane_of(const CompressedNode& node, int axis, std::uint32_t ro
   return static_cast<float>((&node.steps[0][0][0])[row + place]) * node.scale_along(axis) + node.origin[axis];
 }
 
-// kRays rays; a bit stands for each.
-template <typename Bvh>
+// Up to kRays rays; a bit stands for each. kAny: any hit instead of the closest.
+template <typename Bvh, bool kAny>
 class PacketWalk {
   using Node = typename Bvh::Node;
 
@@ -63,36 +63,35 @@ class PacketWalk {
   static constexpr std::size_t kRays = PacketRays::kCount;
   using Rays = PacketRays::Set;
   // Children that no more rays enter are handed over.
-  static constexpr int kFew = 4;
-  // Where fewer rays than that enter what is tested, on average and after so many tests, each does better alone.
-  static constexpr std::uint32_t kLeastMean = 4;
+  static constexpr int kFew = 2;
+  // Where less than a part of the rays enters what is tested, on average and after so many tests, each does better alone.
+  static constexpr std::uint32_t kLeastPart = 5;
   static constexpr std::uint32_t kTrial = 16;
 
   explicit PacketWalk(const Bvh& bvh) : bounds_(bvh.bounds), units_(bvh.units()) {}
 
-  // Takes the rays of a group that is a packet.
-  HWY_INLINE void take(const RayGroup<kRays>& group, const Ray* rays) {
-    rays_.take(group, rays);
+  // Takes rays of a group that are a packet, as PacketRays does; `rays` are these.
+  HWY_INLINE void take(const RayGroup<kRays>& group, std::size_t first, std::size_t count, const Ray* rays) {
+    rays_.take(group, first, count, rays);
     bound(rays[0].origin);
   }
-  [[nodiscard]] const PacketRays& rays() const { return rays_; }
+  [[nodiscard]] PacketRays& rays() { return rays_; }
 
-  // What is behind this is no longer looked for.
-  void shorten(std::uint32_t ray, float t) { rays_.t[ray] = t; }
-
-  // Visits leaves near to far, as far as near and far are the same for the rays: test_leaf(word, rays) tests the block for some, calls shorten() for those
-  // that it shortens and returns those that look for nothing more. hand_over(word, rays, nears) has the child visited later by these rays, from the distances
-  // nears[ray], before what was handed over earlier, and returns whether it could; else the walk enters the child. The hierarchy must not be empty.
+  // Visits leaves near to far, as far as near and far are the same for the rays, or for any hit those in large boxes first: test_leaf(word, rays) tests the block for some,
+  // shortens those that are hit and returns those that look for nothing more. hand_over(word, rays, nears) has the child visited later by these rays, from the distances
+  // nears[ray], before what was handed over earlier, and returns whether it could; else the walk enters the child. Returns the rays
+  // that look for nothing more. The hierarchy must not be empty.
   template <typename TestLeaf, typename HandOver>
-  HWY_INLINE void run(const TestLeaf& test_leaf, const HandOver& hand_over) {
-    Rays left = ~Rays{0};
+  HWY_INLINE Rays run(const TestLeaf& test_leaf, const HandOver& hand_over) {
+    const Rays all = ~Rays{0} >> (kRays - rays_.count);
+    Rays left = all;
     stack_size_ = 0;
     tested_ = 0;
     entered_ = 0;
     push_children(0, left);
     while (stack_size_ != 0) {
       const Entry entry = stack_[--stack_size_];
-      const Rays rays = entering(entry) & entry.rays & left;
+      const Rays rays = entering(entry, entry.rays & left);
       ++tested_;
       entered_ += static_cast<std::uint32_t>(std::popcount(rays));
       if (rays == 0) continue;
@@ -102,15 +101,19 @@ class PacketWalk {
         continue;
       }
       left &= ~test_leaf(entry.word, rays);
-      if (left == 0) return;
+      if (left == 0) break;
       farthest_ = largest(rays_.t);
     }
+    return all & ~left;
   }
 
   // Whether many rays have entered what was tested.
-  [[nodiscard]] bool is_worth_it() const { return tested_ < kTrial || entered_ >= kLeastMean * tested_; }
+  [[nodiscard]] bool is_worth_it() const { return tested_ < kTrial || kLeastPart * entered_ >= rays_.count * tested_; }
 
  private:
+  // The order of places, as nodes have orders.
+  static constexpr std::uint32_t kInPlace = 076543210;
+
   struct Entry {
     const Node* parent;
     std::uint32_t place;
@@ -118,16 +121,16 @@ class PacketWalk {
     Rays rays;
   };
 
-  static HWY_INLINE float least(const float* lanes) {
+  HWY_INLINE float least(const float* lanes) const {
     const hn::CappedTag<float, 16> d;
-    auto v = hn::Load(d, lanes);
-    for (std::size_t i = hn::MaxLanes(d); i < kRays; i += hn::MaxLanes(d)) v = hn::Min(v, hn::Load(d, lanes + i));
+    auto v = hn::LoadU(d, lanes);
+    for (std::size_t i = hn::MaxLanes(d); i < rays_.count; i += hn::MaxLanes(d)) v = hn::Min(v, hn::LoadU(d, lanes + i));
     return hn::GetLane(hn::MinOfLanes(d, v));
   }
-  static HWY_INLINE float largest(const float* lanes) {
+  HWY_INLINE float largest(const float* lanes) const {
     const hn::CappedTag<float, 16> d;
-    auto v = hn::Load(d, lanes);
-    for (std::size_t i = hn::MaxLanes(d); i < kRays; i += hn::MaxLanes(d)) v = hn::Max(v, hn::Load(d, lanes + i));
+    auto v = hn::LoadU(d, lanes);
+    for (std::size_t i = hn::MaxLanes(d); i < rays_.count; i += hn::MaxLanes(d)) v = hn::Max(v, hn::LoadU(d, lanes + i));
     return hn::GetLane(hn::MaxOfLanes(d, v));
   }
 
@@ -136,15 +139,15 @@ class PacketWalk {
   HWY_INLINE void bound(const Vec3& c) {
     for (int axis = 0; axis < 3; ++axis) {
       center_[axis] = c[axis];
-      inverse_bounds_[axis][0] = least(rays_.inverse[axis]);
-      inverse_bounds_[axis][1] = largest(rays_.inverse[axis]);
+      inverse_bounds_[axis][0] = least(rays_.inverse(axis));
+      inverse_bounds_[axis][1] = largest(rays_.inverse(axis));
       HWY_ALIGN float near_rest[kRays];
       HWY_ALIGN float far_rest[kRays];
       const hn::CappedTag<float, 16> d;
-      for (std::size_t i = 0; i < kRays; i += hn::MaxLanes(d)) {
-        const auto inverse = hn::Load(d, rays_.inverse[axis] + i);
-        hn::Store(hn::MulAdd(hn::Set(d, c[axis]), inverse, hn::Load(d, rays_.near_offset[axis] + i)), d, near_rest + i);
-        hn::Store(hn::MulAdd(hn::Set(d, c[axis]), inverse, hn::Load(d, rays_.far_offset[axis] + i)), d, far_rest + i);
+      for (std::size_t i = 0; i < rays_.count; i += hn::MaxLanes(d)) {
+        const auto inverse = hn::LoadU(d, rays_.inverse(axis) + i);
+        hn::Store(hn::MulAdd(hn::Set(d, c[axis]), inverse, hn::LoadU(d, rays_.near_offset(axis) + i)), d, near_rest + i);
+        hn::Store(hn::MulAdd(hn::Set(d, c[axis]), inverse, hn::LoadU(d, rays_.far_offset(axis) + i)), d, far_rest + i);
       }
       // Products and sums round four times by 2^-24 of what they are, which is at most the way to the farthest plane, and c.
       const float reach = std::max(std::abs(bounds_.lower[axis] - c[axis]), std::abs(bounds_.upper[axis] - c[axis])) + std::abs(c[axis]);
@@ -169,19 +172,20 @@ class PacketWalk {
         const auto low = hn::Set(d, inverse_bounds_[axis][0]);
         const auto high = hn::Set(d, inverse_bounds_[axis][1]);
         const auto to_near = hn::Sub(row_of_planes(d, node, axis, rays_.rows.near[axis], first), center);
-        const auto to_far = hn::Sub(row_of_planes(d, node, axis, rays_.rows.far[axis], first), center);
+        const auto to_far = hn::Sub(row_of_planes(d, node, axis, rays_.rows.far(axis), first), center);
         near = hn::Max(near, hn::Add(hn::Min(hn::Mul(to_near, low), hn::Mul(to_near, high)), hn::Set(d, near_rest_[axis])));
         far = hn::Min(far, hn::Add(hn::Max(hn::Mul(to_far, low), hn::Mul(to_far, high)), hn::Set(d, far_rest_[axis])));
       }
       met |= bits_of(d, hn::Le(near, far)) << first;
     }
-    return met & used_places(node);
+    return used_places(node) & met;
   }
 
   HWY_INLINE void push_children(std::uint32_t word, Rays rays) {
     const Node& node = place_of<Node>(units_, word);
     const std::uint32_t met = met_by_any(node);
-    const std::uint32_t order = node.order_for(rays_.rows.octant);
+    // Far to near; for any hit small to large, as they are.
+    const std::uint32_t order = kAny ? kInPlace : node.order_for(rays_.rows.octant);
     for (int k = 0; k < FastNode::kWidth; ++k) {
       const std::uint32_t place = order >> (3 * k) & 7U;
       const auto child = std::bit_cast<std::uint32_t>(node.child[place]);
@@ -195,27 +199,28 @@ class PacketWalk {
     }
   }
 
-  // Which rays meet the box of a child, and where they enter it.
-  HWY_INLINE Rays entering(const Entry& entry) {
+  // Which of some rays meet the box of a child, and where they enter it.
+  HWY_INLINE Rays entering(const Entry& entry, Rays some) {
     const hn::CappedTag<float, 16> d;
     Rays met = 0;
     float planes[3][2];
     for (int axis = 0; axis < 3; ++axis) {
       planes[axis][0] = plane_of(*entry.parent, axis, rays_.rows.near[axis], entry.place);
-      planes[axis][1] = plane_of(*entry.parent, axis, rays_.rows.far[axis], entry.place);
+      planes[axis][1] = plane_of(*entry.parent, axis, rays_.rows.far(axis), entry.place);
     }
-    for (std::size_t i = 0; i < kRays; i += hn::MaxLanes(d)) {
-      auto near = hn::Load(d, rays_.t_min() + i);
+    for (std::size_t i = 0; i < rays_.count; i += hn::MaxLanes(d)) {
+      if ((some >> i & ((Rays{1} << hn::MaxLanes(d)) - 1)) == 0) continue;
+      auto near = hn::LoadU(d, rays_.t_min() + i);
       auto far = hn::Load(d, rays_.t + i);
       for (int axis = 0; axis < 3; ++axis) {
-        const auto inverse = hn::Load(d, rays_.inverse[axis] + i);
-        near = hn::Max(near, hn::MulAdd(hn::Set(d, planes[axis][0]), inverse, hn::Load(d, rays_.near_offset[axis] + i)));
-        far = hn::Min(far, hn::MulAdd(hn::Set(d, planes[axis][1]), inverse, hn::Load(d, rays_.far_offset[axis] + i)));
+        const auto inverse = hn::LoadU(d, rays_.inverse(axis) + i);
+        near = hn::Max(near, hn::MulAdd(hn::Set(d, planes[axis][0]), inverse, hn::LoadU(d, rays_.near_offset(axis) + i)));
+        far = hn::Min(far, hn::MulAdd(hn::Set(d, planes[axis][1]), inverse, hn::LoadU(d, rays_.far_offset(axis) + i)));
       }
       hn::Store(near, d, near_ + i);
-      met |= bits_of(d, hn::Le(near, far)) << i;
+      met |= Rays{bits_of(d, hn::Le(near, far))} << i;
     }
-    return met;
+    return met & some;
   }
 
   const Box bounds_;

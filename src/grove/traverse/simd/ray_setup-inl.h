@@ -16,11 +16,14 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include "grove/math/box.h"
 #include "grove/traverse/simd/batch_ray.h"
 #include "grove/traverse/simd/compaction-inl.h"
+#include "grove/traverse/simd/ray_rows.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace grove {
@@ -28,7 +31,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of up to kMost rays at once.
+// As many rays at once as a register of up to kMost lanes holds.
 template <std::size_t kMost>
 class RaySetup {
   using D = hn::CappedTag<float, kMost>;
@@ -40,86 +43,56 @@ class RaySetup {
 
   explicit RaySetup(const Box& bounds) : bounds_(bounds) {}
 
-  // Sets up rays [0, count), up to kCount of them.
-  HWY_INLINE void prepare(const Ray* rays, std::size_t count) {
-    rays_ = rays;
-    HWY_ALIGN float lanes[8][kCount];
-    for (std::size_t i = 0; i < kCount; ++i) {
-      const Ray& ray = rays[std::min(i, count - 1)];
-      for (int axis = 0; axis < 3; ++axis) {
-        lanes[axis][i] = ray.origin[axis];
-        lanes[3 + axis][i] = ray.direction[axis];
-      }
-      lanes[6][i] = ray.t_min;
-      lanes[7][i] = ray.t_max;
-    }
-    const D d;
-    const auto load = [&](int row) { return hn::Load(d, lanes[row]); };
-    prepare({{load(0), load(1), load(2)}, {load(3), load(4), load(5)}, load(6), load(7)});
+  // Sets up rays [0, count), 1 to kCount of them, as those of `rows` from `first` on; behind them the last is set up again. Returns which the kernels can take, a bit for each. Not: rays that hit
+  // nothing by definition, and those whose numbers are not where the rounding above is bounded, which are coordinates beyond 2^60, a scene that reaches less
+  // than 2^-60 from the origin, and directions whose longest component is below 2^-20 or above 2^20.
+  template <std::size_t kLength>
+  HWY_INLINE std::uint32_t prepare(const Ray* rays, std::size_t count, RayRows<kLength>& rows, std::size_t first) const {
+    if (count == kCount) return prepare_rows(load(rays), rows, first);
+    Ray padded[kCount];
+    for (std::size_t i = 0; i < kCount; ++i) padded[i] = rays[std::min(i, count - 1)];
+    return prepare_rows(load(padded), rows, first);
   }
 
-  // Sets up one ray, number 0.
-  HWY_INLINE void prepare(const Ray& ray) {
-    rays_ = &ray;
+  // One ray that is set up.
+  class One {
+   public:
+    HWY_INLINE void copy(BatchRay& to) const {
+      std::memcpy(to.inverse, by_lane_[0], 16);
+      std::memcpy(to.near_offset, by_lane_[1], 16);
+      std::memcpy(to.far_offset, by_lane_[2], 16);
+      std::memcpy(to.minus_origin_k, by_lane_[3], 16);
+      std::memcpy(to.direction_k, by_lane_[4], 16);
+      to.rows = kPlaneRows[octant_[0]];
+      to.axes = kRayAxes[axes_[0]];
+      to.ray = ray_;
+    }
+
+   private:
+    friend class RaySetup;
+    const Ray* ray_;
+    HWY_ALIGN float by_lane_[5][4 * kCount];
+    HWY_ALIGN std::uint32_t octant_[kCount];
+    HWY_ALIGN std::uint32_t axes_[kCount];
+  };
+
+  // The same for one ray.
+  HWY_INLINE bool prepare(const Ray& ray, One& one) const {
     const D d;
     const auto all = [&](const Vec3& v, V lanes[3]) {
       for (int axis = 0; axis < 3; ++axis) lanes[axis] = hn::Set(d, v[axis]);
     };
-    Rays rays{{}, {}, hn::Set(d, ray.t_min), hn::Set(d, ray.t_max)};
-    all(ray.origin, rays.origin);
-    all(ray.direction, rays.direction);
-    prepare(rays);
-  }
-
-  // Whether the kernel can take ray i. Not: rays that hit nothing by definition, and those whose numbers are not where the rounding above is
-  // bounded, which are coordinates beyond 2^60, a scene that reaches less than 2^-60 from the origin, and directions whose longest component is below
-  // 2^-20 or above 2^20.
-  [[nodiscard]] bool is_regular(std::size_t i) const { return (regular_ >> i & 1U) != 0; }
-
-  // Of all rays.
-  [[nodiscard]] bool is_regular() const { return regular_ == (1U << kCount) - 1; }
-
-  // By the signs of the direction, as nodes number their orders.
-  [[nodiscard]] std::uint32_t octant(std::size_t i) const { return octant_[i]; }
-  [[nodiscard]] bool has_one_octant() const {
-    const DU du;
-    return hn::AllTrue(du, hn::Eq(hn::Load(du, octant_), hn::Set(du, octant_[0])));
-  }
-
-  // The axes that the test of triangles takes them along.
-  [[nodiscard]] std::uint32_t axes(std::size_t i) const { return axes_[i]; }
-  [[nodiscard]] bool has_one_kind_of_axes() const {
-    const DU du;
-    return hn::AllTrue(du, hn::Eq(hn::Load(du, axes_), hn::Set(du, axes_[0])));
-  }
-
-  // What BatchRay has, in rows, of which ray 0 has place `first`.
-  template <std::size_t kLength>
-  HWY_INLINE void store_rows(float (*inverse)[kLength], float (*near_offset)[kLength], float (*far_offset)[kLength],
-                             float (*minus_origin_k)[kLength], float* shear_y, std::size_t first) const {
-    const D d;
-    V v[4];
-    const auto store = [&](const float* four, float(*rows)[kLength]) {
-      hn::LoadInterleaved4(d, four, v[0], v[1], v[2], v[3]);
-      for (int row = 0; row < 4; ++row) hn::StoreU(v[row], d, rows[row] + first);
+    Rays same{{}, {}, hn::Set(d, ray.t_min), hn::Set(d, ray.t_max)};
+    all(ray.origin, same.origin);
+    all(ray.direction, same.direction);
+    one.ray_ = &ray;
+    const auto store = [&](int part, V x, V y, V z, V fourth) { hn::StoreInterleaved4(x, y, z, fourth, d, one.by_lane_[part]); };
+    const auto number = [&](hn::Vec<DU> octants, hn::Vec<DU> kinds_of_axes) {
+      const DU du;
+      hn::Store(octants, du, one.octant_);
+      hn::Store(kinds_of_axes, du, one.axes_);
     };
-    store(inverse_, inverse);
-    store(near_offset_, near_offset);
-    store(far_offset_, far_offset);
-    store(minus_origin_k_, minus_origin_k);
-    hn::LoadInterleaved4(d, direction_k_, v[0], v[1], v[2], v[3]);
-    hn::StoreU(v[3], d, shear_y + first);
-  }
-
-  HWY_INLINE void copy(std::size_t i, BatchRay& ray) const {
-    std::memcpy(ray.inverse, inverse_ + 4 * i, 16);
-    std::memcpy(ray.near_offset, near_offset_ + 4 * i, 16);
-    std::memcpy(ray.far_offset, far_offset_ + 4 * i, 16);
-    std::memcpy(ray.minus_origin_k, minus_origin_k_ + 4 * i, 16);
-    std::memcpy(ray.direction_k, direction_k_ + 4 * i, 16);
-    ray.rows = kPlaneRows[octant_[i]];
-    ray.axes = kRayAxes[axes_[i]];
-    ray.ray = rays_ + i;
+    return (prepare(same, store, number) & 1U) != 0;
   }
 
  private:
@@ -130,9 +103,62 @@ class RaySetup {
     V t_max;
   };
 
-  static HWY_INLINE V largest(const V v[3]) { return hn::Max(hn::Max(v[0], v[1]), v[2]); }
+  template <std::size_t kLength>
+  HWY_INLINE std::uint32_t prepare_rows(const Rays& rays, RayRows<kLength>& rows, std::size_t first) const {
+    const D d;
+    float(*const part_of[5])[kLength] = {rows.inverse, rows.near_offset, rows.far_offset, rows.minus_origin_k, rows.direction_k};
+    const auto store = [&](int part, V x, V y, V z, V fourth) {
+      const V four[4] = {x, y, z, fourth};
+      for (int k = 0; k < 4; ++k) hn::StoreU(four[k], d, part_of[part][k] + first);
+    };
+    const auto number = [&](hn::Vec<DU> octants, hn::Vec<DU> kinds_of_axes) {
+      const DU du;
+      hn::StoreU(octants, du, rows.octant + first);
+      hn::StoreU(kinds_of_axes, du, rows.axes + first);
+    };
+    return prepare(rays, store, number);
+  }
 
-  HWY_INLINE void prepare(const Rays& rays) {
+  // Every other lane of both, from the first or the second on.
+  static HWY_INLINE V by_turns(V front, V back, bool from_second) {
+#if HWY_TARGET == HWY_SCALAR
+    return from_second ? back : front;
+#else
+    const D d;
+    return from_second ? hn::ConcatOdd(d, back, front) : hn::ConcatEven(d, back, front);
+#endif
+  }
+
+  // A ray is eight floats in a row.
+  static HWY_INLINE Rays load(const Ray* rays) {
+    const D d;
+    static_assert(sizeof(Ray) == 8 * sizeof(float) && offsetof(Ray, direction) == 4 * sizeof(float));
+    const auto* const floats = reinterpret_cast<const float*>(rays);
+    Rays loaded;
+    // Of the first half of the rays, and of the second.
+    V front[4];
+    V back[4];
+    hn::LoadInterleaved4(d, floats, front[0], front[1], front[2], front[3]);
+    hn::LoadInterleaved4(d, floats + 4 * kCount, back[0], back[1], back[2], back[3]);
+    // Origins and directions come by turns.
+    const auto origin_part = [&](int k) { return by_turns(front[k], back[k], false); };
+    const auto direction_part = [&](int k) { return by_turns(front[k], back[k], true); };
+    for (int axis = 0; axis < 3; ++axis) {
+      loaded.origin[axis] = origin_part(axis);
+      loaded.direction[axis] = direction_part(axis);
+    }
+    loaded.t_min = origin_part(3);
+    loaded.t_max = direction_part(3);
+    return loaded;
+  }
+
+  static HWY_INLINE V largest(const V v[3]) {
+    return hn::Max(hn::Max(v[0], v[1]), v[2]);
+  }
+
+  // Gives the parts of BatchRay to store(part, x, y, z, fourth), in its order, and number(octants, axes) what it looks up. Returns which rays the kernels can take.
+  template <typename Store, typename Number>
+  HWY_INLINE std::uint32_t prepare(const Rays& rays, const Store& store, const Number& number) const {
     const D d;
     const DU du;
     const V zero = hn::Zero(d);
@@ -155,7 +181,8 @@ class RaySetup {
       is_regular = hn::And(is_regular, hn::Le(length[axis], hn::Set(d, 0x1p20F)));
       is_regular = hn::And(is_regular, hn::And(hn::Le(extent[axis], hn::Set(d, 0x1p60F)), hn::Le(reach[axis], hn::Set(d, 0x1p60F))));
     }
-    regular_ = bits_of(d, is_regular);
+
+    const std::uint32_t regular = bits_of(d, is_regular);
 
     const V pad = hn::Add(hn::Mul(hn::Set(d, 0x1.8p-20F), farthest), hn::Mul(hn::Set(d, 0x1p-22F), most));
     const V least = hn::Mul(hn::Set(d, 0x1p-40F), longest);
@@ -195,28 +222,18 @@ class RaySetup {
     const V shear_y = hn::Div(direction_k[1], direction_z);
     const V depth_pad = hn::Mul(pad, hn::Abs(inverse_z));
 
-    hn::StoreInterleaved4(inverse[0], inverse[1], inverse[2], hn::Max(rays.t_min, zero), d, inverse_);
-    hn::StoreInterleaved4(near_offset[0], near_offset[1], near_offset[2], depth_pad, d, near_offset_);
-    hn::StoreInterleaved4(far_offset[0], far_offset[1], far_offset[2], inverse_z, d, far_offset_);
-    hn::StoreInterleaved4(hn::Neg(origin_k[0]), hn::Neg(origin_k[1]), hn::Neg(origin_k[2]), shear_x, d, minus_origin_k_);
-    hn::StoreInterleaved4(direction_k[0], direction_k[1], direction_k[2], shear_y, d, direction_k_);
-    hn::Store(octant, du, octant_);
-    const auto number = [&](std::uint32_t n) { return hn::BitCast(d, hn::Set(du, n)); };
-    const auto twice_kz = hn::BitCast(du, select(number(4), number(2), number(0)));
-    hn::Store(hn::Or(twice_kz, hn::ShiftRight<31>(hn::BitCast(du, direction_z))), du, axes_);
+    store(0, inverse[0], inverse[1], inverse[2], hn::Max(rays.t_min, zero));
+    store(1, near_offset[0], near_offset[1], near_offset[2], depth_pad);
+    store(2, far_offset[0], far_offset[1], far_offset[2], inverse_z);
+    store(3, hn::Neg(origin_k[0]), hn::Neg(origin_k[1]), hn::Neg(origin_k[2]), shear_x);
+    store(4, direction_k[0], direction_k[1], direction_k[2], shear_y);
+    const auto bits = [&](std::uint32_t n) { return hn::BitCast(d, hn::Set(du, n)); };
+    const auto twice_kz = hn::BitCast(du, select(bits(4), bits(2), bits(0)));
+    number(octant, hn::Or(twice_kz, hn::ShiftRight<31>(hn::BitCast(du, direction_z))));
+    return regular;
   }
 
   const Box bounds_;
-  const Ray* rays_ = nullptr;
-  std::uint32_t regular_ = 0;
-  // By ray, as BatchRay has them.
-  HWY_ALIGN float inverse_[4 * kCount];
-  HWY_ALIGN float near_offset_[4 * kCount];
-  HWY_ALIGN float far_offset_[4 * kCount];
-  HWY_ALIGN float minus_origin_k_[4 * kCount];
-  HWY_ALIGN float direction_k_[4 * kCount];
-  HWY_ALIGN std::uint32_t octant_[kCount];
-  HWY_ALIGN std::uint32_t axes_[kCount];
 };
 
 }  // namespace HWY_NAMESPACE

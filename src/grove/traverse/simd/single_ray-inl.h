@@ -37,6 +37,7 @@ template <typename Bvh, TriangleTest kTest, bool kAny, Beside kBeside>
 class SingleRay {
   using Node = typename Bvh::Node;
   using Block = typename Bvh::Block;
+  using D = hn::CappedTag<float, FastNode::kWidth>;
   static constexpr bool kCounts = kBeside == Beside::counting;
   static constexpr bool kFilters = kBeside == Beside::filtering;
 
@@ -48,11 +49,11 @@ class SingleRay {
   HWY_INLINE static bool trace(const FastScene<Bvh>& scene, const Ray& ray, Hit& hit, Companion* companion) {
     const Bvh& bvh = scene.bvh;
     if (bvh.depth > kMostDepth) return false;
-    RaySetup<4> setup(bvh.bounds);
-    setup.prepare(ray);
-    if (!setup.is_regular(0)) return false;
+    const RaySetup<4> setup(bvh.bounds);
+    RaySetup<4>::One one;
+    if (!setup.prepare(ray, one)) return false;
     SingleRay single(scene, hit, companion);
-    setup.copy(0, single.memory_.slot.ray);
+    one.copy(single.memory_.slot.ray);
     single.run();
     return true;
   }
@@ -79,11 +80,13 @@ class SingleRay {
 
   HWY_INLINE void run() {
     BatchSlot& slot = memory_.slot;
+    const SlabRay<D> ray = slab_ray(D(), slot.ray);
+    const PlaneRows rows = slot.ray.rows;
     std::uint32_t word = 0;
     while (true) {
       if (word >> 31 == 0) {
         if constexpr (kCounts) ++companion_->nodes_visited;
-        if (step(place_of<Node>(units_, word), word)) continue;
+        if (step(place_of<Node>(units_, word), ray, rows, word)) continue;
       } else if (word == kDone || test(gathered(place_of<Block>(units_, word), vertices_))) {
         return;
       }
@@ -95,19 +98,19 @@ class SingleRay {
     }
   }
 
-  // Goes to the nearest child that is met and pushes the others; returns false where none is. Mostly it is one or two: then the way to the next
+  // Goes to the nearest child that is met, or for any hit to the largest, and pushes the others; returns false where none is. Mostly it is one or two: then the way to the next
   // node is short, and the branches tell the processor where it leads before the slabs are done.
-  HWY_INLINE bool step(const Node& node, std::uint32_t& word) {
+  HWY_INLINE bool step(const Node& node, const SlabRay<D>& ray, const PlaneRows& rows, std::uint32_t& word) {
     BatchSlot& slot = memory_.slot;
     HWY_ALIGN float near_of[FastNode::kWidth];
-    const hn::CappedTag<float, FastNode::kWidth> d;
+    const D d;
     std::uint32_t met = 0;
     for (std::size_t first = 0; first < FastNode::kWidth; first += hn::MaxLanes(d)) {
-      const auto [near, far] = slabs(d, node, slot, first);
+      const auto [near, far] = slabs(d, node, ray, rows, hn::Set(d, slot.t), first);
       if constexpr (!kAny) hn::Store(near, d, near_of + first);
       met |= bits_of(d, hn::Le(near, far)) << first;
     }
-    met &= used_places(node);
+    met = used_places(node) & met;
     if (met == 0) return false;
     std::uint32_t place = static_cast<std::uint32_t>(std::countr_zero(met));
     met &= met - 1;
@@ -120,10 +123,15 @@ class SingleRay {
       if constexpr (!kAny) {
         if (near_of[other] < near_of[place]) std::swap(place, other);
         memory_.stack_t[slot.stack_size] = near_of[other];
+      } else {
+        std::swap(place, other);
       }
       memory_.stack_child[slot.stack_size++] = std::bit_cast<std::uint32_t>(node.child[other]);
+      prefetch(std::bit_cast<std::uint32_t>(node.child[other]));
       word = std::bit_cast<std::uint32_t>(node.child[place]);
     } else {
+      for (std::uint32_t left = met; left != 0; left &= left - 1)
+        prefetch(std::bit_cast<std::uint32_t>(node.child[std::countr_zero(left)]));
       push_all(node, near_of, met | 1U << place);
       word = memory_.stack_child[--slot.stack_size];
     }
@@ -131,7 +139,12 @@ class SingleRay {
     return true;
   }
 
-  // In the node's order for the ray, the nearest last.
+  HWY_INLINE void prefetch(std::uint32_t word) const {
+    const char* const line = &place_of<char>(units_, word);
+    for (std::size_t offset = 0; offset < sizeof(Node); offset += 64) __builtin_prefetch(line + offset);
+  }
+
+  // In the node's order for the ray, the nearest last; or as they are, the largest last.
   HWY_INLINE void push_all(const Node& node, const float* near_of, std::uint32_t met) {
     if constexpr (kAny) {
       for (; met != 0; met &= met - 1)
@@ -175,27 +188,57 @@ class SingleRay {
     return filter.possible != 0 && settle(block, filter.possible);
   }
 
+  // Measures the triangles of a block that may be hit, all at once. Returns whether that is all.
   HWY_INLINE bool settle(const TriangleBlock& block, std::uint32_t possible) {
     BatchSlot& slot = memory_.slot;
-    const WatertightRay ray = slot.ray.triangle_ray();
+    MeasuredBlock measured;
+    measure_block(slot.ray, block, measured);
     for (; possible != 0; possible &= possible - 1) {
       const auto place = static_cast<std::uint32_t>(std::countr_zero(possible));
-      const SingleTriangle triangle = triangle_in(block, place);
-      if constexpr (kAny && !kFilters) {
-        if (!occluded_watertight(ray, triangle.corners)) continue;
-        hit_.primitive = 0;
-        return true;
-      } else if constexpr (kFilters) {
-        Hit candidate = hit_;
-        if (!intersect_watertight(ray, triangle.corners, &block.primitive[place], candidate) || !(*companion_)(candidate)) continue;
-        hit_ = candidate;
-        if constexpr (kAny) return true;
-      } else {
-        intersect_watertight(ray, triangle.corners, &block.primitive[place], hit_);
-      }
+      const bool is_known = (measured.known >> place & 1U) != 0;
+      if (!(is_known ? take_measured(measured, block, place) : take_alone(block, place))) continue;
+      if constexpr (kAny) return true;
     }
     slot.t = hit_.t;
     return false;
+  }
+
+  HWY_INLINE bool take_measured(const MeasuredBlock& measured, const TriangleBlock& block, std::uint32_t place) {
+    Hit candidate;
+    candidate.t = measured.t[place];
+    if (!(candidate.t >= memory_.slot.ray.t_min)) return false;
+    if constexpr (kAny && !kFilters) {
+      if (!(candidate.t <= memory_.slot.t && candidate.t < std::numeric_limits<float>::infinity())) return false;
+      hit_.primitive = 0;
+      return true;
+    }
+    candidate.primitive = block.primitive[place];
+    if (!is_closer(candidate.t, candidate.primitive, hit_)) return false;
+    const float sum = measured.weights[0][place] + measured.weights[1][place] + measured.weights[2][place];
+    candidate.u = measured.weights[1][place] / sum;
+    candidate.v = measured.weights[2][place] / sum;
+    if constexpr (kFilters) {
+      if (!(*companion_)(candidate)) return false;
+    }
+    hit_ = candidate;
+    return true;
+  }
+
+  HWY_NOINLINE bool take_alone(const TriangleBlock& block, std::uint32_t place) {
+    const WatertightRay ray = memory_.slot.ray.triangle_ray();
+    const SingleTriangle triangle = triangle_in(block, place);
+    if constexpr (kAny && !kFilters) {
+      if (!occluded_watertight(ray, triangle.corners)) return false;
+      hit_.primitive = 0;
+      return true;
+    }
+    Hit candidate = hit_;
+    if (!intersect_watertight(ray, triangle.corners, &block.primitive[place], candidate)) return false;
+    if constexpr (kFilters) {
+      if (!(*companion_)(candidate)) return false;
+    }
+    hit_ = candidate;
+    return true;
   }
 
   const FastUnit* const units_;
