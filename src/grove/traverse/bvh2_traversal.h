@@ -1,7 +1,8 @@
 #pragma once
 
 // Ordered depth-first traversal of a binary hierarchy: both children of a node are tested at once in one register, the nearer is
-// entered, the farther waits on a stack with its distance and is dropped at pop when a closer hit has been found since.
+// entered, the farther waits on a stack with its distance and is dropped at pop when a closer hit has been found since. A search for any hit enters the
+// larger.
 
 #include <cstdint>
 
@@ -10,6 +11,7 @@
 #include "grove/math/float4.h"
 #include "grove/traverse/slab_ray.h"
 #include "grove/traverse/traversal_record.h"
+#include "grove/traverse/walk_order.h"
 
 namespace grove {
 
@@ -55,9 +57,22 @@ class Bvh2Slabs {
   std::int64_t near_[3];
 };
 
-/// Walks the leaves that the ray meets, near to far as far as the boxes tell. `leaf(first, count)` tests references, may lower `t_max`,
+/// Whether the box of a node's second child has the larger surface.
+[[nodiscard, gnu::always_inline]] inline bool is_second_larger(const Bvh2Node& node) {
+  const auto extent = [&](int axis) {
+    const Float4 planes = load4(node.planes[axis]);
+    return __builtin_shufflevector(planes, planes, 2, 3, 2, 3) - planes;
+  };
+  const Float4 x = extent(0);
+  const Float4 y = extent(1);
+  const Float4 z = extent(2);
+  const Float4 half_area = x * y + y * z + z * x;
+  return half_area[1] > half_area[0];
+}
+
+/// Walks the leaves that the ray meets, near to far as far as the boxes tell, or in large boxes first. `leaf(first, count)` tests references, may lower `t_max`,
 /// and returns true to end the walk; `prefetch_leaf(first)` asks for a leaf that may be next. `ray` must be traceable.
-template <typename LeafTest, typename LeafPrefetch, typename C>
+template <WalkOrder kOrder, typename LeafTest, typename LeafPrefetch, typename C>
 void walk(const Bvh2& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, const LeafPrefetch& prefetch_leaf, C& counter) {
   if (bvh.references.empty()) return;
   if (bvh.nodes.empty()) {
@@ -91,7 +106,7 @@ void walk(const Bvh2& bvh, const Ray& ray, const float& t_max, const LeafTest& l
     const int met = slabs.test(node, limits, entry);
     // Branches rather than selects: a guess lets the next node's load start before this one's test is done.
     if (met == 3) {
-      if (entry[1] < entry[0]) {
+      if (kOrder == WalkOrder::nearest_first ? entry[1] < entry[0] : is_second_larger(node)) {
         stack[stack_size++] = {node.child[0], entry[0]};
         next = node.child[1];
       } else {

@@ -9,6 +9,7 @@
 #include "grove/accel/fast_bvh.h"
 #include "grove/geometry/hit_filter.h"
 #include "grove/geometry/watertight_triangle.h"
+#include "grove/traverse/walk_order.h"
 #include "grove/traverse/wide_traversal.h"
 
 namespace grove {
@@ -43,8 +44,8 @@ struct FastScene {
   const Vec3* vertices;
 };
 
-/// Walks the blocks that the ray meets, near to far; otherwise as walk_nodes, of which leaf(block) is the leaf.
-template <typename Bvh, typename LeafTest, typename C>
+/// Walks the blocks that the ray meets in an order; otherwise as walk_nodes, of which leaf(block) is the leaf.
+template <WalkOrder kOrder, typename Bvh, typename LeafTest, typename C>
 void walk_blocks(const FastScene<Bvh>& scene, const Ray& ray, const float& t_max, const LeafTest& leaf, C& counter) {
   using Child = typename Bvh::Child;
   const Bvh& bvh = scene.bvh;
@@ -53,7 +54,7 @@ void walk_blocks(const FastScene<Bvh>& scene, const Ray& ray, const float& t_max
     const char* const line = reinterpret_cast<const char*>(bvh.units() + child.unit());
     for (std::size_t offset = 0; offset < sizeof(typename Bvh::Block); offset += 64) __builtin_prefetch(line + offset);
   };
-  walk_nodes(
+  walk_nodes<kOrder>(
       bvh.nodes().data(), bvh.bounds, ray, t_max, [&](Child child) { return leaf(gathered(bvh.block(child), scene.vertices)); }, prefetch,
       counter);
 }
@@ -83,7 +84,7 @@ void trace_closest(const FastScene<Bvh>& scene, const Ray& ray, Hit& hit, C& cou
     }
     return false;
   };
-  walk_blocks(scene, ray, hit.t, test_leaf, counter);
+  walk_blocks<WalkOrder::nearest_first>(scene, ray, hit.t, test_leaf, counter);
 }
 
 /// Any hit within [ray.t_min, ray.t_max].
@@ -106,7 +107,7 @@ bool trace_any(const FastScene<Bvh>& scene, const Ray& ray, C& counter) {
     }
     return found;
   };
-  walk_blocks(scene, ray, ray.t_max, test_leaf, counter);
+  walk_blocks<WalkOrder::largest_first>(scene, ray, ray.t_max, test_leaf, counter);
   return found;
 }
 

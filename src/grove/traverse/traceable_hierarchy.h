@@ -1,6 +1,6 @@
 #pragma once
 
-// Tracing a hierarchy over a geometry: what the leaves of any walk(hierarchy, ray, t_max, leaf, prefetch, counter) do.
+// Tracing a hierarchy over a geometry: what the leaves of any walk<order>(hierarchy, ray, t_max, leaf, prefetch, counter) do.
 
 #include <cstdint>
 #include <span>
@@ -10,6 +10,7 @@
 #include "grove/geometry/hit_filter.h"
 #include "grove/geometry/leaf_storage.h"
 #include "grove/traverse/traversal_record.h"
+#include "grove/traverse/walk_order.h"
 
 namespace grove {
 
@@ -50,7 +51,7 @@ void trace_closest(const TraceableHierarchy<Hierarchy, G>& structure, const G& g
     return false;
   };
   const auto prefetch_leaf = [&](std::uint32_t first) { structure.leaves.prefetch(references, first); };
-  walk(structure.bvh, ray, hit.t, test_leaf, prefetch_leaf, counter);
+  walk<WalkOrder::nearest_first>(structure.bvh, ray, hit.t, test_leaf, prefetch_leaf, counter);
 }
 
 /// Any hit within [ray.t_min, ray.t_max].
@@ -75,7 +76,7 @@ bool trace_any(const TraceableHierarchy<Hierarchy, G>& structure, const G& geome
     return found;
   };
   const auto prefetch_leaf = [&](std::uint32_t first) { structure.leaves.prefetch(references, first); };
-  walk(structure.bvh, ray, ray.t_max, test_leaf, prefetch_leaf, counter);
+  walk<WalkOrder::largest_first>(structure.bvh, ray, ray.t_max, test_leaf, prefetch_leaf, counter);
   return found;
 }
 

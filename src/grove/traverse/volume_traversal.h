@@ -1,7 +1,7 @@
 #pragma once
 
 // Ordered depth-first traversal of a hierarchy over any volume: the children of a node are tested one after another, those that are met are entered near to
-// far. Otherwise as traverse/bvh2_traversal.h.
+// far, or the largest first. Otherwise as traverse/bvh2_traversal.h.
 
 #include <cstdint>
 
@@ -11,11 +11,12 @@
 #include "grove/traverse/oriented_box_test.h"
 #include "grove/traverse/traversal_record.h"
 #include "grove/traverse/unit_ray.h"
+#include "grove/traverse/walk_order.h"
 
 namespace grove {
 
 /// Walks the leaves that the ray meets; the contract is that of the walk through a Bvh2.
-template <BoundingVolume V, typename LeafTest, typename LeafPrefetch, typename C>
+template <WalkOrder kOrder, BoundingVolume V, typename LeafTest, typename LeafPrefetch, typename C>
 void walk(const VolumeBvh<V>& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, const LeafPrefetch& prefetch_leaf,
           C& counter) {
   if (bvh.nodes.empty()) return;
@@ -43,6 +44,8 @@ void walk(const VolumeBvh<V>& bvh, const Ray& ray, const float& t_max, const Lea
       for (const VolumeNode<V>* child = nodes + node->first; child != end; ++child) {
         float distance;
         if (!test(child->volume, limit, distance)) continue;
+        // Distances are of no use where the first hit ends the walk.
+        if constexpr (kOrder == WalkOrder::largest_first) distance = -child->volume.half_area();
         if (child->is_leaf != 0) {
           prefetch_leaf(child->first);
         } else {

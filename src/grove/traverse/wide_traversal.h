@@ -1,7 +1,7 @@
 #pragma once
 
 // Ordered depth-first traversal of a wide hierarchy: all children of a node are tested four at a time, those that are met are entered near to
-// far. Otherwise as traverse/bvh2_traversal.h.
+// far, or the largest first. Otherwise as traverse/bvh2_traversal.h.
 
 #include <bit>
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include "grove/math/float4.h"
 #include "grove/traverse/slab_ray.h"
 #include "grove/traverse/traversal_record.h"
+#include "grove/traverse/walk_order.h"
 
 namespace grove {
 
@@ -77,6 +78,19 @@ template <typename Node>
   }
 }
 
+/// Writes half the surfaces of the boxes of all places; unused ones mean nothing. The node has `planes` as WideNode has.
+template <int kWidth, typename Node>
+[[gnu::always_inline]] inline void half_areas(const Node& node, float* areas) {
+  for (int group = 0; group < kWidth; group += 4) {
+    const auto extent = [&](int axis) { return load4(node.planes[axis][1] + group) - load4(node.planes[axis][0] + group); };
+    const Float4 x = extent(0);
+    const Float4 y = extent(1);
+    const Float4 z = extent(2);
+    const Float4 half_area = x * y + y * z + z * x;
+    __builtin_memcpy(areas + group, &half_area, sizeof half_area);
+  }
+}
+
 /// A child that waits on a stack, and from which distance on the ray may hit something in it.
 template <typename Child>
 struct WaitingChild {
@@ -99,9 +113,9 @@ template <typename Child, typename Pushes>
   }
 }
 
-/// Walks the children that are leaves and that the ray meets, near to far. leaf(child) returns whether the walk is over; it may lower what `t_max` refers to.
+/// Walks the children that are leaves and that the ray meets, near to far or in large boxes first. leaf(child) returns whether the walk is over; it may lower what `t_max` refers to.
 /// `Node` has `planes` as WideNode has, or tells boxes() that do, and children that know is_leaf() and node(). Node 0 must be there, and the ray traceable.
-template <typename Node, typename LeafTest, typename LeafPrefetch, typename C>
+template <WalkOrder kOrder, typename Node, typename LeafTest, typename LeafPrefetch, typename C>
 void walk_nodes(const Node* nodes, const Box& bounds, const Ray& ray, const float& t_max, const LeafTest& leaf,
                 const LeafPrefetch& prefetch_leaf, C& counter) {
   using Child = std::remove_cvref_t<decltype(nodes->child[0])>;
@@ -115,7 +129,13 @@ void walk_nodes(const Node* nodes, const Box& bounds, const Ray& ray, const floa
   for (;;) {
     count_node(counter, static_cast<std::uint32_t>(node - nodes));
     float entry[kWidth];
-    const unsigned met = slabs.test(boxes_of(*node), t_min, splat(t_max), entry);
+    const auto& boxes = boxes_of(*node);
+    const unsigned met = slabs.test(boxes, t_min, splat(t_max), entry);
+    if constexpr (kOrder == WalkOrder::largest_first) {
+      // Instead of distances, which are of no use where the first hit ends the walk.
+      half_areas<kWidth>(boxes, entry);
+      for (float& area : entry) area = -area;
+    }
     push_near_to_far(node->child, met, entry, stack, stack_size, [&](Child child) {
       if (child.is_leaf()) return prefetch_leaf(child);
       const char* const line = reinterpret_cast<const char*>(nodes + child.node());
@@ -140,7 +160,7 @@ void walk_nodes(const Node* nodes, const Box& bounds, const Ray& ray, const floa
 }
 
 /// Walks the leaves that the ray meets; the contract is that of the walk through a Bvh2.
-template <int kWidth, typename LeafTest, typename LeafPrefetch, typename C>
+template <WalkOrder kOrder, int kWidth, typename LeafTest, typename LeafPrefetch, typename C>
 void walk(const WideBvh<kWidth>& bvh, const Ray& ray, const float& t_max, const LeafTest& leaf, const LeafPrefetch& prefetch_leaf,
           C& counter) {
   if (bvh.references.empty()) return;
@@ -150,7 +170,7 @@ void walk(const WideBvh<kWidth>& bvh, const Ray& ray, const float& t_max, const 
     return;
   }
   using Child = typename WideNode<kWidth>::Child;
-  walk_nodes(
+  walk_nodes<kOrder>(
       bvh.nodes.data(), bvh.bounds, ray, t_max, [&](Child child) { return leaf(child.first, child.count); },
       [&](Child child) { prefetch_leaf(child.first); }, counter);
 }

@@ -129,9 +129,16 @@ HWY_INLINE void push_in_one(D d, const Node& node, BatchSlot& slot, std::size_t 
   slot.stack_size = size + static_cast<std::uint32_t>(std::popcount(met));
 }
 
-template <typename Node>
+// In which order rays of an octant push children: far to near, or for any hit small to large, as they are.
+template <bool kAny, typename Node>
+HWY_INLINE std::uint32_t pushing_order(const Node& node, std::uint32_t octant) {
+  constexpr std::uint32_t kInPlace = 076543210;
+  return kAny ? kInPlace : node.order_for(octant);
+}
+
+template <bool kAny, typename Node>
 HWY_INLINE void push_one_by_one(const Node& node, BatchSlot& slot, std::size_t capacity, const float* near, std::uint32_t met) {
-  const std::uint32_t order = node.order_for(slot.ray.rows.octant);
+  const std::uint32_t order = pushing_order<kAny>(node, slot.ray.rows.octant);
   std::uint32_t* const stack_child = slot.stack_child(capacity);
   std::uint32_t size = slot.stack_size;
   for (int k = 0; k < FastNode::kWidth; ++k) {
@@ -143,7 +150,7 @@ HWY_INLINE void push_one_by_one(const Node& node, BatchSlot& slot, std::size_t c
   slot.stack_size = size;
 }
 
-// Pushes the children that are met, the nearest last. `capacity` is that of the slot's stack.
+// Pushes the children that are met, the nearest last, or for any hit the largest. `capacity` is that of the slot's stack.
 template <bool kAny, typename Node>
 HWY_INLINE void step_through(const Node& node, BatchSlot& slot, std::size_t capacity) {
   const hn::CappedTag<float, FastNode::kWidth> d;
@@ -160,7 +167,7 @@ HWY_INLINE void step_through(const Node& node, BatchSlot& slot, std::size_t capa
       hn::Store(near, d, near_of + first);
       met |= bits_of(d, hn::Le(near, far)) << first;
     }
-    push_one_by_one(node, slot, capacity, near_of, used_places(node) & met);
+    push_one_by_one<kAny>(node, slot, capacity, near_of, used_places(node) & met);
   }
 }
 

@@ -111,9 +111,6 @@ class PacketWalk {
   [[nodiscard]] bool is_worth_it() const { return tested_ < kTrial || kLeastPart * entered_ >= rays_.count * tested_; }
 
  private:
-  // The order of places, as nodes have orders.
-  static constexpr std::uint32_t kInPlace = 076543210;
-
   struct Entry {
     const Node* parent;
     std::uint32_t place;
@@ -184,8 +181,7 @@ class PacketWalk {
   HWY_INLINE void push_children(std::uint32_t word, Rays rays) {
     const Node& node = place_of<Node>(units_, word);
     const std::uint32_t met = met_by_any(node);
-    // Far to near; for any hit small to large, as they are.
-    const std::uint32_t order = kAny ? kInPlace : node.order_for(rays_.rows.octant);
+    const std::uint32_t order = pushing_order<kAny>(node, rays_.rows.octant);
     for (int k = 0; k < FastNode::kWidth; ++k) {
       const std::uint32_t place = order >> (3 * k) & 7U;
       const auto child = std::bit_cast<std::uint32_t>(node.child[place]);

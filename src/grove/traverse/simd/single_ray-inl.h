@@ -150,7 +150,7 @@ class SingleRay {
       for (; met != 0; met &= met - 1)
         memory_.stack_child[memory_.slot.stack_size++] = std::bit_cast<std::uint32_t>(node.child[std::countr_zero(met)]);
     } else {
-      push_one_by_one(node, memory_.slot, kCapacity, near_of, met);
+      push_one_by_one<false>(node, memory_.slot, kCapacity, near_of, met);
     }
   }
 
