@@ -14,7 +14,7 @@ test: ## install what is missing, build everything and run every test
 build: ## build everything into build/release (PRESET=debug, asan, tsan or coverage for another)
 	@scripts/build $(or $(PRESET),release)
 
-bench: ## build the benchmarks and run Grove beside Embree (BENCH="--quick" or other options of grove_rival_bench)
+bench: ## build the benchmarks and run Grove beside Embree (BENCH=--page for all of docs/performance.md, or --quick and other options of grove_rival_bench)
 	@scripts/bench $(BENCH)
 
 format: ## format every source with clang-format

@@ -15,7 +15,21 @@ if(GROVE_WARNINGS_AS_ERRORS)
 endif()
 
 # For builds from nothing without a compiler cache, which does not see through precompiled headers.
-option(GROVE_PRECOMPILE_HEADERS "Parse the headers that most sources include once a target" OFF)
+option(GROVE_PRECOMPILE_HEADERS "Parse the headers that most sources include once" OFF)
+
+# grove_precompile_headers(TARGET KIND HEADER): parses HEADER once for all targets of a kind. Their flags must be the same.
+function(grove_precompile_headers target kind header)
+  if(NOT GROVE_PRECOMPILE_HEADERS)
+    return()
+  endif()
+  get_property(first GLOBAL PROPERTY grove_first_precompiled_${kind})
+  if(first)
+    target_precompile_headers(${target} REUSE_FROM ${first})
+  else()
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/${header})
+    set_property(GLOBAL PROPERTY grove_first_precompiled_${kind} ${target})
+  endif()
+endfunction()
 
 # grove_room(NAME SOURCES a.cpp… DEPENDS room… LIBRARIES target… PRIVATE_LIBRARIES target…)
 # Libraries of other packages are named PACKAGE::target, which is how the installed package knows what to look for.
@@ -29,8 +43,6 @@ function(grove_room name)
   target_link_libraries(grove_${name}
     PUBLIC grove_flags ${ROOM_DEPENDS} ${ROOM_LIBRARIES}
     PRIVATE $<BUILD_INTERFACE:grove_warnings> ${ROOM_PRIVATE_LIBRARIES})
-  if(GROVE_PRECOMPILE_HEADERS)
-    target_precompile_headers(grove_${name} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h)
-  endif()
   set_target_properties(grove_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  grove_precompile_headers(grove_${name} rooms precompiled.h)
 endfunction()

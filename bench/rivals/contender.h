@@ -14,7 +14,7 @@
 namespace grove::bench::rivals {
 
 /// A structure over a mesh that is asked about rays in one or more ways, each with its number of rays a call.
-class Contender {
+class Entrant {
  public:
   struct Traits {
     std::string name;
@@ -23,10 +23,10 @@ class Contender {
     bool is_exact = false;   ///< promises Grove's hits to the bit
   };
 
-  Contender() = default;
-  virtual ~Contender() = default;
-  Contender(const Contender&) = delete;
-  Contender& operator=(const Contender&) = delete;
+  Entrant() = default;
+  virtual ~Entrant() = default;
+  Entrant(const Entrant&) = delete;
+  Entrant& operator=(const Entrant&) = delete;
 
   [[nodiscard]] virtual const Traits& traits() const = 0;
   /// Rays a call, ascending.
@@ -45,8 +45,8 @@ class Contender {
 };
 
 /// A structure of Grove's. `call_sizes` are those it is to be asked with; 1 is a call for a single ray.
-[[nodiscard]] std::unique_ptr<Contender> make_grove(std::shared_ptr<const TriangleMesh> mesh, std::string spec,
-                                                    std::vector<std::size_t> call_sizes);
+[[nodiscard]] std::unique_ptr<Entrant> make_grove(std::shared_ptr<const TriangleMesh> mesh, std::string spec,
+                                                  std::vector<std::size_t> call_sizes);
 
 /// How Embree is set up.
 struct EmbreeSettings {
@@ -58,6 +58,6 @@ struct EmbreeSettings {
 };
 
 /// Embree 3: rtcIntersect1, 8 and 16. Packets are filled from rays and hits are read from them within each call: whoever has rays as Grove takes them must do so.
-[[nodiscard]] std::unique_ptr<Contender> make_embree(std::shared_ptr<const TriangleMesh> mesh, const EmbreeSettings& settings);
+[[nodiscard]] std::unique_ptr<Entrant> make_embree(std::shared_ptr<const TriangleMesh> mesh, const EmbreeSettings& settings);
 
 }  // namespace grove::bench::rivals

@@ -54,7 +54,7 @@ void put(const Ray& ray, Rays& packet, unsigned lane) {
   packet.flags[lane] = 0;
 }
 
-class Embree final : public Contender {
+class Embree final : public Entrant {
  public:
   Embree(std::shared_ptr<const TriangleMesh> mesh, const EmbreeSettings& settings)
       : mesh_(std::move(mesh)), settings_(settings), traits_{name_of(settings), true, settings.is_robust, false} {
@@ -154,7 +154,7 @@ class Embree final : public Contender {
 
 }  // namespace
 
-std::unique_ptr<Contender> make_embree(std::shared_ptr<const TriangleMesh> mesh, const EmbreeSettings& settings) {
+std::unique_ptr<Entrant> make_embree(std::shared_ptr<const TriangleMesh> mesh, const EmbreeSettings& settings) {
   return std::make_unique<Embree>(std::move(mesh), settings);
 }
 

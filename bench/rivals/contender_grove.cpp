@@ -8,7 +8,7 @@
 namespace grove::bench::rivals {
 namespace {
 
-class Grove final : public Contender {
+class Grove final : public Entrant {
  public:
   Grove(std::shared_ptr<const TriangleMesh> mesh, std::string spec, std::vector<std::size_t> call_sizes)
       : mesh_(std::move(mesh)), traits_{std::move(spec), false, true, true}, call_sizes_(std::move(call_sizes)) {
@@ -59,7 +59,7 @@ class Grove final : public Contender {
 
 }  // namespace
 
-std::unique_ptr<Contender> make_grove(std::shared_ptr<const TriangleMesh> mesh, std::string spec, std::vector<std::size_t> call_sizes) {
+std::unique_ptr<Entrant> make_grove(std::shared_ptr<const TriangleMesh> mesh, std::string spec, std::vector<std::size_t> call_sizes) {
   return std::make_unique<Grove>(std::move(mesh), std::move(spec), std::move(call_sizes));
 }
 

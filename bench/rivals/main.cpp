@@ -21,7 +21,7 @@ namespace {
 struct Options {
   std::vector<std::string> scenes;
   std::vector<std::string> kinds;
-  std::string structures = "fast";
+  std::string structures = "fast;fast:triangles=fast";
   MeasureSettings settings;
   bool is_quick = false;
   bool is_one_thread = false;

@@ -21,10 +21,10 @@ constexpr double kMostDiffering = 2e-3;
 // What one thread takes at a time when all trace.
 constexpr std::size_t kPiece = 4096;
 
-using Contenders = std::vector<std::unique_ptr<Contender>>;
+using Entrants = std::vector<std::unique_ptr<Entrant>>;
 
-Contenders make_contenders(const std::shared_ptr<const TriangleMesh>& mesh, const std::vector<std::string>& structures) {
-  Contenders all;
+Entrants make_contenders(const std::shared_ptr<const TriangleMesh>& mesh, const std::vector<std::string>& structures) {
+  Entrants all;
   for (const std::string& spec : structures) all.push_back(make_grove(mesh, spec, {1, 8, 32, 256, 1024}));
   all.push_back(make_grove(mesh, "bvh", {1}));
   for (const char* const isa : {"", "avx2"})
@@ -39,7 +39,7 @@ struct Answers {
   std::vector<std::uint8_t> occluded;
 };
 
-void trace_range(const Contender& contender, const Way& way, std::span<const Ray> rays, Answers& answers, std::size_t first,
+void trace_range(const Entrant& contender, const Way& way, std::span<const Ray> rays, Answers& answers, std::size_t first,
                  std::size_t count) {
   if (query_of(way.kind) == Query::closest) {
     contender.intersect(way.call_size, way.kind == RayKind::primary, rays.subspan(first, count),
@@ -56,7 +56,7 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double trace_seconds(const Contender& contender, const Way& way, std::span<const Ray> rays, Answers& answers, int threads) {
+double trace_seconds(const Entrant& contender, const Way& way, std::span<const Ray> rays, Answers& answers, int threads) {
   if (threads == 1) {
     const double start = thread_seconds();
     trace_range(contender, way, rays, answers, 0, rays.size());
@@ -76,7 +76,7 @@ double trace_seconds(const Contender& contender, const Way& way, std::span<const
   return timer.seconds();
 }
 
-void measure_builds(const Contenders& contenders, const MeasureSettings& settings, SceneResult& result) {
+void measure_builds(const Entrants& contenders, const MeasureSettings& settings, SceneResult& result) {
   std::vector<int> counts = {1};
   if (settings.threads > 1) counts.push_back(settings.threads);
   for (const int threads : counts) {
@@ -122,11 +122,11 @@ WayAgreement check(const TriangleMesh& mesh, const Way& way, std::span<const Ray
 }
 
 struct Racer {
-  const Contender* contender;
+  const Entrant* contender;
   Way way;
 };
 
-void measure_kind(const TriangleMesh& mesh, const Contenders& contenders, RayKind kind, std::span<const Ray> rays,
+void measure_kind(const TriangleMesh& mesh, const Entrants& contenders, RayKind kind, std::span<const Ray> rays,
                   const MeasureSettings& settings, SceneResult& result) {
   Answers expected(rays.size());
   trace_range(*contenders.front(), {contenders.front()->traits(), 1, kind}, rays, expected, 0, rays.size());
@@ -171,7 +171,7 @@ SceneResult measure_scene(const std::string& source, const MeasureSettings& sett
   SceneResult result;
   result.scene = source;
   result.triangles = mesh->size();
-  const Contenders contenders = make_contenders(mesh, settings.structures);
+  const Entrants contenders = make_contenders(mesh, settings.structures);
   measure_builds(contenders, settings, result);
   const SceneAccelerator accelerator(scene, "bvh");
   const Camera camera = workload_camera(scene, "");

@@ -22,7 +22,7 @@ struct MeasureSettings {
 
 /// One way of asking a contender about rays of one kind.
 struct Way {
-  Contender::Traits contender;
+  Entrant::Traits contender;
   std::size_t call_size = 1;
   RayKind kind = RayKind::primary;
 };
@@ -43,7 +43,7 @@ struct WayRate {
 };
 
 struct BuildTime {
-  Contender::Traits contender;
+  Entrant::Traits contender;
   int threads = 1;
   std::vector<double> seconds;  ///< round by round
   double bytes_per_triangle = 0.0;

@@ -208,6 +208,27 @@ TEST(Update, ChoosesByWhatTheRaysSave) {
   expect_hits_of_brute_force(*structure, GeometryPointer(std::shared_ptr<const TriangleMesh>(mesh)), 14);
 }
 
+TEST(Update, OfFastIsARefitUntilBuildingAnewPays) {
+  for (const char* const spec : {"fast", "fast:nodes=compressed"}) {
+    const auto mesh = many();
+    const GeometryPointer geometry = std::shared_ptr<const TriangleMesh>(mesh);
+    const auto structure = build(geometry, spec);
+    const double built = structure->statistics().expected_cost;
+    EXPECT_EQ(structure->update({}).method, UpdateMethod::refit) << spec;
+    mesh->move_vertices(stirred(mesh->vertices(), 6.0F, 0.0F, 12));
+    const UpdateReport refitted = structure->update({UpdatePolicy::automatic, 1.0});
+    EXPECT_EQ(refitted.method, UpdateMethod::refit) << spec;
+    EXPECT_EQ(refitted.built_cost, built) << spec;
+    EXPECT_GT(refitted.cost_growth(), 1.5) << spec;
+    expect_hits_of_brute_force(*structure, geometry, 20);
+    const StructureQuality worse = structure->measure_quality();
+    EXPECT_EQ(structure->update({UpdatePolicy::automatic, 1e9}).method, UpdateMethod::rebuild) << spec;
+    const StructureQuality better = structure->measure_quality();
+    EXPECT_LT(better.end_point_overlap->value, worse.end_point_overlap->value) << spec;
+    EXPECT_LT(*better.sibling_overlap, *worse.sibling_overlap) << spec;
+  }
+}
+
 // Moving an instance touches the top level alone: the structures that instances refer to are not asked for anything.
 class Watched final : public Traceable {
  public:

@@ -9,11 +9,22 @@
 namespace grove {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+// At least a step of the last place down or up, as std::nextafter, which is a call to the library; not a number where the step is infinite.
+float step(float v) {
+  const float s = std::fabs(v) * 0x1p-23F;
+  return s > 0.0F ? s : std::numeric_limits<float>::denorm_min();
+}
+float next_below(float v) {
+  return v - step(v);
+}
+float next_above(float v) {
+  return v + step(v);
+}
 
-// The part of the ray inside an instance's world bounds. A hit is looked for in this stretch only, so that whether it is found does not
-// depend on how a structure above came to the instance.
-Ray clip_to_bounds(const InstanceSet::PreparedRay& prepared, const Box& bounds, float t_max) {
+// Leaves of the ray what is inside an instance's world bounds; returns whether there is anything. A hit is looked for in this stretch only, so that
+// whether it is found does not depend on how a structure above came to the instance. (Comparisons in place of std::fmin and std::fmax, which are calls
+// as well; nothing here is NaN before the end.)
+bool clip_to_bounds(const InstanceSet::PreparedRay& prepared, const Box& bounds, float t_max, Ray& clipped) {
   double near = prepared.ray.t_min > 0.0F ? prepared.ray.t_min : 0.0F;
   double far = t_max;
   for (int axis = 0; axis < 3; ++axis) {
@@ -21,17 +32,22 @@ Ray clip_to_bounds(const InstanceSet::PreparedRay& prepared, const Box& bounds, 
     const double low = static_cast<double>(bounds.lower[axis]) - prepared.ray.origin[axis];
     const double high = static_cast<double>(bounds.upper[axis]) - prepared.ray.origin[axis];
     if (std::isinf(inverse)) {
-      if (low > 0.0 || high < 0.0) far = -1.0;
+      if (low > 0.0 || high < 0.0) return false;
       continue;
     }
-    near = std::fmax(near, (inverse > 0.0 ? low : high) * inverse);
-    far = std::fmin(far, (inverse > 0.0 ? high : low) * inverse);
+    const double enters = (inverse > 0.0 ? low : high) * inverse;
+    const double leaves = (inverse > 0.0 ? high : low) * inverse;
+    near = enters > near ? enters : near;
+    far = leaves < far ? leaves : far;
   }
-  Ray ray = prepared.ray;
+  if (!(near <= far)) return false;
   // Rounded outward, but never beyond the ray itself.
-  ray.t_min = std::fmax(prepared.ray.t_min, std::nextafter(static_cast<float>(near), -kInfinity));
-  ray.t_max = near <= far ? std::fmin(t_max, std::nextafter(static_cast<float>(far), kInfinity)) : -kInfinity;
-  return ray;
+  const float from = next_below(static_cast<float>(near));
+  const float to = next_above(static_cast<float>(far));
+  clipped = prepared.ray;
+  clipped.t_min = from > prepared.ray.t_min ? from : prepared.ray.t_min;
+  clipped.t_max = to < t_max ? to : t_max;
+  return clipped.t_min <= clipped.t_max;
 }
 
 // Into object space. t keeps its meaning, because the direction is transformed without being normalised.
@@ -117,8 +133,8 @@ bool InstanceSet::take_closer(const Hit& found, std::size_t i, Hit& hit) {
 
 bool InstanceSet::enter(std::size_t i, const PreparedRay& ray, float t_max, Ray& object_ray) const {
   if (bounds_[i].is_empty()) return false;
-  const Ray clipped = clip_to_bounds(ray, bounds_[i], t_max);
-  if (!(clipped.t_min <= clipped.t_max)) return false;
+  Ray clipped;
+  if (!clip_to_bounds(ray, bounds_[i], t_max, clipped)) return false;
   object_ray = to_object(clipped, instances_[i].object_to_world);
   return true;
 }

@@ -5,12 +5,13 @@
 
 #include "grove/base/check.h"
 #include "grove/base/timer.h"
+#include "grove/build/fast/fast_references.h"
 #include "grove/build/fast/pack_fast.h"
 #include "grove/build/passes/collapse.h"
 #include "grove/registry/bvh_binary.h"
 #include "grove/registry/families.h"
+#include "grove/registry/fast_update.h"
 #include "grove/registry/hierarchy_accelerator.h"
-#include "grove/registry/update_by_rebuilding.h"
 #include "grove/traverse/fast_traversal.h"
 #include "grove/traverse/instance_batch.h"
 #include "grove/traverse/simd/fast_batch.h"
@@ -127,7 +128,7 @@ template <typename Bvh>
 StructureStatistics count(const FastState<Bvh>& state, const TriangleMesh& /*mesh*/) {
   const Bvh& bvh = state.structure.bvh;
   StructureStatistics statistics = count_nodes(bvh);
-  statistics.expected_cost = expected_cost(bvh, CostModel{});
+  statistics.expected_cost = state.expected_cost ? *state.expected_cost : expected_cost(bvh, CostModel{});
   statistics.bytes = bvh.memory();
   return statistics;
 }
@@ -138,16 +139,11 @@ std::unique_ptr<Accelerator> build_over_mesh(const Spec& spec, std::shared_ptr<c
   const TriangleTest test = spec.value("triangles") == "fast" ? TriangleTest::fast : TriangleTest::watertight;
   FastState<Bvh> state = build_over<Bvh>(*mesh, quality, test);
   const auto view = [](const FastStructure<Bvh>& s, const std::function<void(const NodeView&)>& visit) { view_nodes(s.bvh, visit); };
-  const auto measure = [](const FastStructure<Bvh>& /*s*/, const TriangleMesh& /*m*/) { return StructureQuality{}; };
-  const auto update = [quality, test](FastState<Bvh>& s, const TriangleMesh& m, const UpdateSettings& /*settings*/) {
-    const auto size = [](const FastState<Bvh>& now) {
-      return StructureMeasure{expected_cost(now.structure.bvh, CostModel{}), now.structure.bvh.references};
-    };
-    return update_by_rebuilding(
-        s, m, [&](const TriangleMesh& changed) { return build_over<Bvh>(changed, quality, test); }, size);
-  };
+  const auto measure = [](const FastStructure<Bvh>& s, const TriangleMesh& m) { return measure_quality(FastReferences<Bvh>(s.bvh), m); };
+  const auto rebuild = [quality, test](const TriangleMesh& changed) { return build_over<Bvh>(changed, quality, test); };
+  FastUpdater<FastState<Bvh>, decltype(rebuild)> update(rebuild);
   return std::make_unique<StructureAccelerator<FastStructure<Bvh>, TriangleMesh>>(std::move(state), std::move(mesh), spec.canonical(),
-                                                                                  count<Bvh>, view, measure, update);
+                                                                                  count<Bvh>, view, measure, std::move(update));
 }
 
 // Other primitives are tested one at a time, by the walk that all wide hierarchies share; but batches of rays at instances are handed down as batches.

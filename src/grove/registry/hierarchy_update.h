@@ -14,6 +14,7 @@
 #include "grove/build/passes/refit.h"
 #include "grove/build/passes/rotation.h"
 #include "grove/build/passes/subtree_costs.h"
+#include "grove/registry/left_out_primitives.h"
 #include "grove/registry/structure_accelerator.h"
 #include "grove/registry/update.h"
 #include "grove/traverse/traceable_hierarchy.h"
@@ -47,7 +48,7 @@ class HierarchyUpdater {
     report.cost = report.built_cost;
     bool must_rebuild = settings.policy == UpdatePolicy::rebuild;
     if constexpr (Refittable<Hierarchy>) {
-      must_rebuild = must_rebuild || appeared(geometry) || !refit_boxes(state, geometry, report);
+      must_rebuild = must_rebuild || left_out_.appeared(geometry) || !refit_boxes(state, geometry, report);
       if (!must_rebuild) must_rebuild = improve(state, geometry, settings, report);
     } else {
       must_rebuild = true;
@@ -70,27 +71,17 @@ class HierarchyUpdater {
   // What is known of the structure as it was built, taken down before its boxes change. Returns its expected cost.
   double remember(const State& state, const G& geometry) {
     if (is_known_) {
-      // Of those that were added since, the structure knows none.
-      for (; size_ < geometry.size(); ++size_) left_out_.push_back(size_);
+      left_out_.add_up_to(geometry.size());
       return built_cost_;
     }
     const Hierarchy& bvh = state.structure.bvh;
     built_cost_ = expected_cost_of(state);
-    std::vector<bool> is_referenced(geometry.size(), false);
-    for (const std::uint32_t reference : bvh.references) is_referenced[reference] = true;
-    left_out_.clear();
-    for (size_ = 0; size_ < is_referenced.size(); ++size_)
-      if (!is_referenced[size_]) left_out_.push_back(size_);
+    left_out_.take(geometry.size(), [&](const auto& tell) {
+      for (const std::uint32_t reference : bvh.references) tell(reference);
+    });
     if constexpr (std::same_as<Hierarchy, Bvh2>) built_ = measure_subtree_costs(bvh).per_entry;
     is_known_ = true;
     return built_cost_;
-  }
-
-  // Whether something can be hit now that the structure does not know.
-  [[nodiscard]] bool appeared(const G& geometry) const {
-    for (const std::uint32_t i : left_out_)
-      if (!geometry.bounds(i).is_empty()) return true;
-    return false;
   }
 
   // Returns whether the structure can go on: everything in it can still be hit, and its cost is a number.
@@ -160,9 +151,8 @@ class HierarchyUpdater {
   TopDownSettings part_settings_;
   bool is_known_ = false;
   double built_cost_ = 0.0;
-  std::uint32_t size_ = 0;               // primitives that left_out_ is about
-  std::vector<std::uint32_t> left_out_;  // primitives that could not be hit
-  std::vector<float> built_;             // cost per entry of each node of a binary hierarchy, as it was built
+  LeftOutPrimitives left_out_;
+  std::vector<float> built_;  // cost per entry of each node of a binary hierarchy, as it was built
 };
 
 }  // namespace grove

@@ -16,74 +16,9 @@
 #include "grove/accel/wide_bvh.h"
 #include "grove/geometry/batch_hit_filter.h"
 #include "grove/geometry/instance_set.h"
-#include "grove/traverse/wide_traversal.h"
+#include "grove/traverse/instance_walk.h"
 
 namespace grove {
-
-/// One ray's way through the hierarchy, which it can be made to go on with.
-class InstanceWalk {
- public:
-  using Child = WideNode<8>::Child;
-  using Entry = WaitingChild<Child>;
-
-  /// So many entries a stack needs. Each level leaves at most seven behind; the root, and one more at the last.
-  [[nodiscard]] static std::size_t stack_capacity(const WideBvh<8>& bvh) { return 7 * (std::size_t{bvh.depth} + 1) + 2; }
-
-  InstanceWalk(const WideBvh<8>& bvh, const Ray& ray, std::uint32_t index, Entry* stack)
-      : prepared_(InstanceSet::prepare(ray)),
-        slabs_(SlabRay(ray, bvh.bounds)),
-        t_min_(splat(ray.t_min > 0.0F ? ray.t_min : 0.0F)),
-        index_(index),
-        stack_(stack) {
-    hit.t = ray.t_max;
-    if (bvh.nodes.empty()) {
-      leaf_ = {0, static_cast<std::uint32_t>(bvh.references.size())};
-    } else {
-      stack_[stack_size_++] = {{0, 0}, -std::numeric_limits<float>::infinity()};
-    }
-  }
-
-  Hit hit;  ///< the closest so far; its t is how far the ray goes
-
-  [[nodiscard]] std::uint32_t index() const { return index_; }
-
-  /// Goes on to the next instance that may be hit, and writes the ray in its space. Returns false at the end.
-  bool advance(const WideBvh<8>& bvh, const InstanceSet& instances, std::uint32_t& instance, Ray& object_ray) {
-    for (;;) {
-      while (leaf_.count > 0) {
-        instance = bvh.references[leaf_.first];
-        leaf_ = {leaf_.first + 1, leaf_.count - 1};
-        if (instances.enter(instance, prepared_, hit.t, object_ray)) return true;
-      }
-      Entry top;
-      do {
-        if (stack_size_ == 0) return false;
-        top = stack_[--stack_size_];
-        // A tie must still be visited: the instance there may have a lower number.
-      } while (top.t > hit.t);
-      if (top.child.is_leaf()) {
-        leaf_ = top.child;
-      } else {
-        push_children(bvh.nodes[top.child.node()]);
-      }
-    }
-  }
-
- private:
-  void push_children(const WideNode<8>& node) {
-    float entry[8];
-    const unsigned met = slabs_.test(node, t_min_, splat(hit.t), entry);
-    push_near_to_far(node.child, met, entry, stack_, stack_size_, [](Child /*child*/) {});
-  }
-
-  InstanceSet::PreparedRay prepared_;
-  WideSlabs<8> slabs_;
-  Float4 t_min_;
-  std::uint32_t index_;
-  Entry* stack_;
-  std::uint32_t stack_size_ = 0;
-  Child leaf_{0, 0};
-};
 
 /// A batch's filter as the object of an instance sees it: rays are numbered as those that have come to the instance, and hits are told with its number.
 class InstanceBatchFilter {
@@ -123,11 +58,17 @@ class InstanceBatch {
         [&](std::uint32_t instance, std::span<const Ray> object_rays, std::span<const std::uint32_t> slots) {
           const std::span<Hit> found(found_hits_.data(), object_rays.size());
           const Traceable& object = *instances_.instance(instance).object;
-          if (filter_ == nullptr) {
-            object.closest_hits(object_rays, found);
-          } else {
+          if (filter_ != nullptr) {
             InstanceBatchFilter below(*filter_, instance, walks_, slots);
-            object.closest_hits(object_rays, found, below.filter());
+            if (slots.size() < kFewest) {
+              object.Traceable::closest_hits(object_rays, found, below.filter());
+            } else {
+              object.closest_hits(object_rays, found, below.filter());
+            }
+          } else if (slots.size() < kFewest) {
+            object.Traceable::closest_hits(object_rays, found);
+          } else {
+            object.closest_hits(object_rays, found);
           }
           for (std::size_t k = 0; k < slots.size(); ++k) InstanceSet::take_closer(found[k], instance, walks_[slots[k]].hit);
         },
@@ -142,11 +83,17 @@ class InstanceBatch {
         [&](std::uint32_t instance, std::span<const Ray> object_rays, std::span<const std::uint32_t> slots) {
           const std::span<std::uint8_t> found(found_any_.data(), object_rays.size());
           const Traceable& object = *instances_.instance(instance).object;
-          if (filter_ == nullptr) {
-            object.any_hits(object_rays, found);
-          } else {
+          if (filter_ != nullptr) {
             InstanceBatchFilter below(*filter_, instance, walks_, slots);
-            object.any_hits(object_rays, found, below.filter());
+            if (slots.size() < kFewest) {
+              object.Traceable::any_hits(object_rays, found, below.filter());
+            } else {
+              object.any_hits(object_rays, found, below.filter());
+            }
+          } else if (slots.size() < kFewest) {
+            object.Traceable::any_hits(object_rays, found);
+          } else {
+            object.any_hits(object_rays, found);
           }
           for (std::size_t k = 0; k < slots.size(); ++k)
             if (found[k] != 0) walks_[slots[k]].hit.primitive = 0;
@@ -157,11 +104,19 @@ class InstanceBatch {
  private:
   // More make calls of objects longer, and are more to keep in the caches.
   static constexpr std::size_t kInFlight = 512;
+  // Fewer rays at an object are traced one by one: a call that keeps many in flight takes longer to begin than it gains.
+  static constexpr std::size_t kFewest = 4;
 
   struct Arrival {
     std::uint32_t instance;
     std::uint32_t slot;
     Ray ray;
+  };
+
+  // Where an arrival goes when those at the same instance are side by side.
+  struct Place {
+    std::uint32_t instance;
+    std::uint32_t arrival;
   };
 
   static void finish(const Hit& hit, Hit& result) {
@@ -180,7 +135,6 @@ class InstanceBatch {
     walks_.reserve(in_flight);
     active_.reserve(in_flight);
     arrivals_.reserve(in_flight);
-    object_rays_.reserve(in_flight);
     // Puts the next ray that can be traced into a slot; returns whether there was one.
     const auto refill = [&](std::uint32_t slot) {
       for (; next < rays.size(); ++next) {
@@ -188,12 +142,12 @@ class InstanceBatch {
           miss(next);
           continue;
         }
-        const InstanceWalk walk(bvh_, rays[next], static_cast<std::uint32_t>(next), stacks.get() + slot * capacity);
-        ++next;
+        const auto index = static_cast<std::uint32_t>(next++);
+        InstanceWalk::Entry* const stack = stacks.get() + slot * capacity;
         if (slot < walks_.size()) {
-          walks_[slot] = walk;
+          std::construct_at(&walks_[slot], bvh_, rays[index], index, stack);
         } else {
-          walks_.push_back(walk);
+          walks_.emplace_back(bvh_, rays[index], index, stack);
         }
         return true;
       }
@@ -203,28 +157,49 @@ class InstanceBatch {
     while (!active_.empty()) {
       arrivals_.clear();
       for (const std::uint32_t slot : active_) {
-        Arrival arrival{0, slot, {}};
+        Arrival& arrival = arrivals_.emplace_back();
+        arrival.slot = slot;
         bool is_there = false;
         do {
           InstanceWalk& walk = walks_[slot];
           is_there = !is_over(walk) && walk.advance(bvh_, instances_, arrival.instance, arrival.ray);
           if (!is_there) write(walk);
         } while (!is_there && refill(slot));
-        if (is_there) arrivals_.push_back(arrival);
+        if (!is_there) arrivals_.pop_back();
       }
-      std::sort(arrivals_.begin(), arrivals_.end(),
-                [](const Arrival& a, const Arrival& b) { return std::pair(a.instance, a.slot) < std::pair(b.instance, b.slot); });
-      active_.clear();
-      object_rays_.clear();
-      for (const Arrival& arrival : arrivals_) {
-        active_.push_back(arrival.slot);
-        object_rays_.push_back(arrival.ray);
-      }
-      for (std::size_t first = 0, last = 0; first < arrivals_.size(); first = last) {
-        while (last < arrivals_.size() && arrivals_[last].instance == arrivals_[first].instance) ++last;
-        trace(arrivals_[first].instance, std::span(object_rays_).subspan(first, last - first),
+      gather_arrivals();
+      for (std::size_t first = 0, last = 0; first < active_.size(); first = last) {
+        while (last < active_.size() && places_[last].instance == places_[first].instance) ++last;
+        trace(places_[first].instance, std::span(object_rays_).subspan(first, last - first),
               std::span(active_).subspan(first, last - first));
       }
+    }
+  }
+
+  // Puts rays and slots of arrivals at the same instance side by side: by counting how many fall into each of a few buckets, which are those of
+  // single instances unless there are more instances than arrivals.
+  void gather_arrivals() {
+    const std::size_t count = arrivals_.size();
+    const std::size_t bucket_count = std::bit_ceil(std::min(instances_.size(), 2 * count) + 1);
+    const auto bucket_of = [mask = bucket_count - 1](std::uint32_t instance) { return instance & mask; };
+    ends_.assign(bucket_count, 0);
+    for (const Arrival& arrival : arrivals_) ++ends_[bucket_of(arrival.instance)];
+    std::uint32_t sum = 0;
+    for (std::uint32_t& end : ends_) end = std::exchange(sum, sum + end);
+    places_.resize(count);
+    for (std::uint32_t k = 0; k < count; ++k) places_[ends_[bucket_of(arrivals_[k].instance)]++] = {arrivals_[k].instance, k};
+    if (bucket_count < instances_.size()) {
+      const auto precedes = [&](const Place& a, const Place& b) {
+        return std::pair(bucket_of(a.instance), a.instance) < std::pair(bucket_of(b.instance), b.instance);
+      };
+      for (std::size_t k = 1; k < count; ++k)
+        for (std::size_t at = k; at > 0 && precedes(places_[at], places_[at - 1]); --at) std::swap(places_[at], places_[at - 1]);
+    }
+    active_.resize(count);
+    object_rays_.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      active_[k] = arrivals_[places_[k].arrival].slot;
+      object_rays_[k] = arrivals_[places_[k].arrival].ray;
     }
   }
 
@@ -234,6 +209,8 @@ class InstanceBatch {
   std::vector<InstanceWalk> walks_;  // by slot
   std::vector<std::uint32_t> active_;
   std::vector<Arrival> arrivals_;
+  std::vector<std::uint32_t> ends_;  // of buckets
+  std::vector<Place> places_;        // of arrivals, those at the same instance side by side
   std::vector<Ray> object_rays_;
   std::vector<Hit> found_hits_;
   std::vector<std::uint8_t> found_any_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "grove/accel/bvh2.h"
@@ -19,8 +20,7 @@ struct SlotTree {
 
     [[nodiscard]] Box4 box() const { return {without_last_lane(lower), without_last_lane(upper)}; }
     [[nodiscard]] Bvh2Node::Child link() const {
-      return {static_cast<std::uint32_t>(reinterpret_cast<const Int4&>(lower)[3]),
-              static_cast<std::uint32_t>(reinterpret_cast<const Int4&>(upper)[3])};
+      return {std::bit_cast<std::uint32_t>(lower[3]), std::bit_cast<std::uint32_t>(upper[3])};
     }
     void set_box(const Box4& box);
     void set(const Box4& box, Bvh2Node::Child link);
