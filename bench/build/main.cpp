@@ -90,6 +90,7 @@ nlohmann::json run_scene(const std::string& source, const Options& options) {
   for (const EmbreeQuality quality : {EmbreeQuality::low, EmbreeQuality::medium, EmbreeQuality::high})
     contenders.push_back(make_embree(mesh, {.quality = quality, .robust = quality != EmbreeQuality::high, .isa = {}}));
   std::vector<Measured> rows;
+  rows.reserve(contenders.size());
   for (const auto& contender : contenders) rows.push_back({contender->name(), 0.0, {}, {}});
   for (int round = 0; round < options.rounds; ++round) {
     for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -19,9 +19,7 @@ struct SlotTree {
     Float4 upper;  ///< lane 3: the bits of `count`
 
     [[nodiscard]] Box4 box() const { return {without_last_lane(lower), without_last_lane(upper)}; }
-    [[nodiscard]] Bvh2Node::Child link() const {
-      return {std::bit_cast<std::uint32_t>(lower[3]), std::bit_cast<std::uint32_t>(upper[3])};
-    }
+    [[nodiscard]] Bvh2Node::Child link() const { return {std::bit_cast<std::uint32_t>(lower[3]), std::bit_cast<std::uint32_t>(upper[3])}; }
     void set_box(const Box4& box);
     void set(const Box4& box, Bvh2Node::Child link);
   };
