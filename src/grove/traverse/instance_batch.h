@@ -60,15 +60,9 @@ class InstanceBatch {
           const Traceable& object = *instances_.instance(instance).object;
           if (filter_ != nullptr) {
             InstanceBatchFilter below(*filter_, instance, walks_, slots);
-            if (slots.size() < kFewest) {
-              object.Traceable::closest_hits(object_rays, found, below.filter());
-            } else {
-              object.closest_hits(object_rays, found, below.filter());
-            }
-          } else if (slots.size() < kFewest) {
-            object.Traceable::closest_hits(object_rays, found);
+            ask(object, object_rays, found, below.filter());
           } else {
-            object.closest_hits(object_rays, found);
+            ask(object, object_rays, found);
           }
           for (std::size_t k = 0; k < slots.size(); ++k) InstanceSet::take_closer(found[k], instance, walks_[slots[k]].hit);
         },
@@ -85,15 +79,9 @@ class InstanceBatch {
           const Traceable& object = *instances_.instance(instance).object;
           if (filter_ != nullptr) {
             InstanceBatchFilter below(*filter_, instance, walks_, slots);
-            if (slots.size() < kFewest) {
-              object.Traceable::any_hits(object_rays, found, below.filter());
-            } else {
-              object.any_hits(object_rays, found, below.filter());
-            }
-          } else if (slots.size() < kFewest) {
-            object.Traceable::any_hits(object_rays, found);
+            ask(object, object_rays, found, below.filter());
           } else {
-            object.any_hits(object_rays, found);
+            ask(object, object_rays, found);
           }
           for (std::size_t k = 0; k < slots.size(); ++k)
             if (found[k] != 0) walks_[slots[k]].hit.primitive = 0;
@@ -106,6 +94,16 @@ class InstanceBatch {
   static constexpr std::size_t kInFlight = 512;
   // Fewer rays at an object are traced one by one: a call that keeps many in flight takes longer to begin than it gains.
   static constexpr std::size_t kFewest = 4;
+
+  // An object's answers to some rays: closest hits, or whether there are any.
+  template <typename... Filter>
+  static void ask(const Traceable& object, std::span<const Ray> rays, std::span<Hit> found, const Filter&... filter) {
+    rays.size() < kFewest ? object.Traceable::closest_hits(rays, found, filter...) : object.closest_hits(rays, found, filter...);
+  }
+  template <typename... Filter>
+  static void ask(const Traceable& object, std::span<const Ray> rays, std::span<std::uint8_t> found, const Filter&... filter) {
+    rays.size() < kFewest ? object.Traceable::any_hits(rays, found, filter...) : object.any_hits(rays, found, filter...);
+  }
 
   struct Arrival {
     std::uint32_t instance;

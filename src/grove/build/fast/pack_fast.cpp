@@ -8,28 +8,19 @@
 
 #include "grove/base/check.h"
 #include "grove/base/parallel.h"
+#include "grove/build/fast/block_corners.h"
 #include "grove/build/fast/child_orders.h"
 #include "grove/build/fast/planned_nodes.h"
 
 namespace grove {
 namespace {
 
-void put(const TriangleMesh& mesh, std::uint32_t primitive, int place, TriangleBlock& block) {
-  const Triangle& triangle = mesh.triangles()[primitive];
-  for (int corner = 0; corner < 3; ++corner)
-    for (int axis = 0; axis < 3; ++axis) block.corners[axis][corner][place] = mesh.vertices()[triangle[corner]][axis];
-}
-
-void put(const TriangleMesh& mesh, std::uint32_t primitive, int place, IndexedBlock& block) {
-  for (int corner = 0; corner < 3; ++corner) block.vertex[corner][place] = mesh.triangles()[primitive][corner];
-}
-
 template <typename Block>
 Block pack_block(std::span<const std::uint32_t> references, const TriangleMesh& mesh) {
   Block block;
   int places = 0;
   const auto append = [&](std::uint32_t primitive) {
-    put(mesh, primitive, places, block);
+    put_corners(mesh, primitive, places, block);
     block.primitive[places++] = primitive;
   };
   // Leaves that a collapse has joined may name a primitive more than once.

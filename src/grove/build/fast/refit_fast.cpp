@@ -3,24 +3,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "grove/base/parallel.h"
+#include "grove/build/fast/block_corners.h"
 
 namespace grove {
 namespace {
 
 // Down to this depth children are refitted side by side: 512 subtrees.
 constexpr std::uint32_t kTaskDepth = 3;
-
-void take_corners(const TriangleMesh& mesh, TriangleBlock& block) {
-  for (int place = 0; place < TriangleBlock::kWidth; ++place) {
-    const Triangle& triangle = mesh.triangles()[block.primitive[place]];
-    for (int corner = 0; corner < 3; ++corner)
-      for (int axis = 0; axis < 3; ++axis) block.corners[axis][corner][place] = mesh.vertices()[triangle[corner]][axis];
-  }
-}
-// Corners are numbers of vertices, which keep theirs.
-void take_corners(const TriangleMesh& /*mesh*/, IndexedBlock& /*block*/) {}
 
 template <typename Bvh>
 class FastRefitter {
@@ -49,7 +41,9 @@ class FastRefitter {
 
   Refitted refit_leaf(Child leaf) const {
     Block& block = bvh_.blocks()[static_cast<std::size_t>(&bvh_.block(leaf) - bvh_.blocks().data())];
-    take_corners(mesh_, block);
+    // Where corners are numbers of vertices, they keep theirs.
+    if constexpr (std::is_same_v<Block, TriangleBlock>)
+      for (int place = 0; place < Block::kWidth; ++place) put_corners(mesh_, block.primitive[place], place, block);
     Refitted result{{}, 0.0, true, block.count()};
     for (std::uint32_t place = 0; place < result.count; ++place) {
       const Box box = mesh_.bounds(block.primitive[place]);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 #include "grove/accel/fast_node.h"
 #include "grove/geometry/watertight_triangle.h"
@@ -51,6 +52,18 @@ struct BatchRay {
   PlaneRows rows;
   RayAxes axes;
   const Ray* ray;
+
+  /// Takes a ray's five parts of four numbers each, in the order above, and what tables have for its octant and kind of axes.
+  void set(const float* const parts[5], std::uint32_t octant, std::uint32_t kind_of_axes, const Ray& of) {
+    std::memcpy(inverse, parts[0], 4 * sizeof(float));
+    std::memcpy(near_offset, parts[1], 4 * sizeof(float));
+    std::memcpy(far_offset, parts[2], 4 * sizeof(float));
+    std::memcpy(minus_origin_k, parts[3], 4 * sizeof(float));
+    std::memcpy(direction_k, parts[4], 4 * sizeof(float));
+    rows = kPlaneRows[octant];
+    axes = kRayAxes[kind_of_axes];
+    ray = &of;
+  }
 
   /// For the test of single triangles.
   [[nodiscard]] WatertightRay triangle_ray() const {

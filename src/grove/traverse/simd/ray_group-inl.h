@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "grove/traverse/simd/batch_ray.h"
 #include "grove/traverse/simd/ray_rows.h"
@@ -47,14 +46,8 @@ class RayGroup {
 
   HWY_INLINE void copy(std::size_t i, BatchRay& ray) {
     if (!is_by_ray_) set_by_ray();
-    std::memcpy(ray.inverse, by_ray_[0][i], 16);
-    std::memcpy(ray.near_offset, by_ray_[1][i], 16);
-    std::memcpy(ray.far_offset, by_ray_[2][i], 16);
-    std::memcpy(ray.minus_origin_k, by_ray_[3][i], 16);
-    std::memcpy(ray.direction_k, by_ray_[4][i], 16);
-    ray.rows = kPlaneRows[rows_.octant[i]];
-    ray.axes = kRayAxes[rows_.axes[i]];
-    ray.ray = rays_ + i;
+    const float* const parts[5] = {by_ray_[0][i], by_ray_[1][i], by_ray_[2][i], by_ray_[3][i], by_ray_[4][i]};
+    ray.set(parts, rows_.octant[i], rows_.axes[i], rays_[i]);
   }
 
   // Whether `count` rays from number `first` on, both multiples of 32, may go side by side: they are there, the kernel can take all of them, their directions have

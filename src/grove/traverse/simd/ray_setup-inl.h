@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "grove/math/box.h"
 #include "grove/traverse/simd/batch_ray.h"
@@ -43,9 +42,9 @@ class RaySetup {
 
   explicit RaySetup(const Box& bounds) : bounds_(bounds) {}
 
-  // Sets up rays [0, count), 1 to kCount of them, as those of `rows` from `first` on; behind them the last is set up again. Returns which the kernels can take, a bit for each. Not: rays that hit
-  // nothing by definition, and those whose numbers are not where the rounding above is bounded, which are coordinates beyond 2^60, a scene that reaches less
-  // than 2^-60 from the origin, and directions whose longest component is below 2^-20 or above 2^20.
+  // Sets up rays [0, count), 1 to kCount of them, as those of `rows` from `first` on; behind them the last is set up again. Returns which the kernels can
+  // take, a bit for each. Not: rays that hit nothing by definition, and those whose numbers are not where the rounding above is bounded, which are coordinates
+  // beyond 2^60, a scene that reaches less than 2^-60 from the origin, and directions whose longest component is below 2^-20 or above 2^20.
   template <std::size_t kLength>
   HWY_INLINE std::uint32_t prepare(const Ray* rays, std::size_t count, RayRows<kLength>& rows, std::size_t first) const {
     if (count == kCount) return prepare_rows(load(rays), rows, first);
@@ -54,18 +53,12 @@ class RaySetup {
     return prepare_rows(load(padded), rows, first);
   }
 
-  // One ray that is set up.
+  // One ray that is set up, where a kernel may yet refuse it.
   class One {
    public:
     HWY_INLINE void copy(BatchRay& to) const {
-      std::memcpy(to.inverse, by_lane_[0], 16);
-      std::memcpy(to.near_offset, by_lane_[1], 16);
-      std::memcpy(to.far_offset, by_lane_[2], 16);
-      std::memcpy(to.minus_origin_k, by_lane_[3], 16);
-      std::memcpy(to.direction_k, by_lane_[4], 16);
-      to.rows = kPlaneRows[octant_[0]];
-      to.axes = kRayAxes[axes_[0]];
-      to.ray = ray_;
+      const float* const parts[5] = {by_lane_[0], by_lane_[1], by_lane_[2], by_lane_[3], by_lane_[4]};
+      to.set(parts, octant_[0], axes_[0], *ray_);
     }
 
    private:
